@@ -1,0 +1,23 @@
+"""The camera model, its images, and what a source of images must be."""
+
+from tagmetry.camera.image import Image
+from tagmetry.camera.lens import BrownLens, FisheyeLens, Lens
+from tagmetry.camera.model import Camera
+from tagmetry.camera.monotonic import DistortionReach, distortion_reach
+from tagmetry.camera.resize import cropped, rotated, scaled, zoomed
+from tagmetry.camera.source import Source
+
+__all__ = [
+    "BrownLens",
+    "Camera",
+    "DistortionReach",
+    "FisheyeLens",
+    "Image",
+    "Lens",
+    "Source",
+    "cropped",
+    "distortion_reach",
+    "rotated",
+    "scaled",
+    "zoomed",
+]

@@ -1,0 +1,31 @@
+"""Marker families, boards, and bodies of several markers."""
+
+from tagmetry.markers.boards import (
+    AprilGrid,
+    Board,
+    CharucoBoard,
+    Chessboard,
+    GridBoard,
+)
+from tagmetry.markers.bodies import MarkerBody, MountedMarker, cube, marker_corners_m
+from tagmetry.markers.family import MarkerFamily
+from tagmetry.markers.generate import generate_family
+from tagmetry.markers.layout import Layout
+from tagmetry.markers.predefined import family, family_names
+
+__all__ = [
+    "AprilGrid",
+    "Board",
+    "CharucoBoard",
+    "Chessboard",
+    "GridBoard",
+    "Layout",
+    "MarkerBody",
+    "MarkerFamily",
+    "MountedMarker",
+    "cube",
+    "family",
+    "family_names",
+    "generate_family",
+    "marker_corners_m",
+]

@@ -1,0 +1,81 @@
+"""Where the border and the bits of a marker lie, on a grid of cells.
+
+The bits are listed as cells, not as a matrix, because AprilTag 3's newer families have bits outside
+the border as well. Cell (0, 0) is the top left cell of the black square.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tagmetry.errors import InputError
+from tagmetry.geometry.arrays import Array, BoolArray
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The geometry that all markers of a family share.
+
+    Attributes:
+        side_cells: Side of the square whose four corners are measured; `size_m` is its length.
+        border_cells: How many cells wide the border inside that square is.
+        bit_cells: (column, row) of every bit, in the order of the code; columns and rows below 0 or
+            from `side_cells` on lie outside the square.
+        white_border: The border is white on a dark surround, as in some AprilTag 3 families.
+    """
+
+    side_cells: int
+    border_cells: int
+    bit_cells: tuple[tuple[int, int], ...]
+    white_border: bool = False
+
+    @classmethod
+    def square(cls, data_cells: int, border_cells: int = 1) -> "Layout":
+        """Return the classic layout: a black border around data_cells x data_cells bits."""
+        if border_cells < 1:
+            raise InputError(f"a border is at least 1 cell wide, got {border_cells}")
+        first, last = border_cells, border_cells + data_cells
+        cells = tuple((column, row) for row in range(first, last) for column in range(first, last))
+        return cls(data_cells + 2 * border_cells, border_cells, cells)
+
+    @property
+    def bit_count(self) -> int:
+        """The number of bits in a code."""
+        return len(self.bit_cells)
+
+    @cached_property
+    def margin_cells(self) -> int:
+        """How far bits reach beyond the square, in cells."""
+        cells = np.array(self.bit_cells)
+        return max(0, int(-cells.min()), int(cells.max() + 1 - self.side_cells))
+
+    @cached_property
+    def bit_centres(self) -> Array:
+        """Centres of the bits with the square's side as the unit, (n, 2), (0, 0) its top left."""
+        return np.asarray((np.array(self.bit_cells) + 0.5) / self.side_cells)
+
+    @cached_property
+    def rotations(self) -> NDArray[np.intp]:
+        """How a code reads on a turned marker, shape (4, n).
+
+        `code[rotations[k]]` is what one reads when the marker was turned clockwise by k quarters.
+        """
+        index = {cell: i for i, cell in enumerate(self.bit_cells)}
+        turns = [np.arange(self.bit_count)]
+        quarter = [index[row, self.side_cells - 1 - column] for column, row in self.bit_cells]
+        for _ in range(3):
+            turns.append(turns[-1][quarter])
+        return np.stack(turns)
+
+    def picture(self, code: BoolArray) -> BoolArray:
+        """Return the marker as cells, True is white, shape (m, m), m = side + 2 * margin."""
+        margin, side = self.margin_cells, self.side_cells
+        cells = np.full((side + 2 * margin,) * 2, not self.white_border)
+        cells[margin : margin + side, margin : margin + side] = self.white_border
+        inside = slice(margin + self.border_cells, margin + side - self.border_cells)
+        cells[inside, inside] = not self.white_border
+        columns, rows = np.array(self.bit_cells).T + margin
+        cells[rows, columns] = code
+        return cells
