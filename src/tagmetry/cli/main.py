@@ -1,0 +1,68 @@
+"""The `tagmetry` command: gathers the subcommands and turns known errors into one line.
+
+Exit codes: 0 done, 1 a fault of the program, 2 an input that cannot be used, 130 interrupted.
+"""
+
+import os
+import sys
+
+import click
+import typer
+
+from tagmetry import __version__
+from tagmetry.errors import InputError
+
+app = typer.Typer(
+    help="Turn any camera into a measuring instrument with printed markers.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"tagmetry {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: bool = typer.Option(
+        False, "--version", callback=_print_version, is_eager=True, help="Print the version."
+    ),
+) -> None:
+    """Gather the subcommands."""
+
+
+def main() -> None:
+    """Run the command line and exit with its code."""
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: list[str]) -> int:
+    """Run one command and return its exit code."""
+    try:
+        result = app(arguments, prog_name="tagmetry", standalone_mode=False)
+    except click.ClickException as error:
+        return _refuse(error.format_message())
+    except (InputError, OSError) as error:
+        return _refuse_os(error) if isinstance(error, OSError) else _refuse(str(error))
+    except (KeyboardInterrupt, click.Abort):
+        sys.stderr.write("tagmetry: interrupted\n")
+        return 130
+    return result if isinstance(result, int) else 0
+
+
+def _refuse_os(error: OSError) -> int:
+    """Say what the system refused; a reader that went away (a closed pipe) is no error."""
+    if isinstance(error, BrokenPipeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    where = f"{error.filename}: " if error.filename else ""
+    return _refuse(f"{where}{error.strerror or error}")
+
+
+def _refuse(text: str) -> int:
+    sys.stderr.write(f"tagmetry: {' '.join(text.split())}\n")
+    return 2
