@@ -6,8 +6,8 @@ Exit codes: 0 done, 1 a fault of the program, 2 an input that cannot be used, 13
 import os
 import sys
 
-import click
 import typer
+from typer.exceptions import TyperException
 
 from tagmetry import __version__
 from tagmetry.errors import InputError
@@ -44,11 +44,11 @@ def run(arguments: list[str]) -> int:
     """Run one command and return its exit code."""
     try:
         result = app(arguments, prog_name="tagmetry", standalone_mode=False)
-    except click.ClickException as error:
+    except TyperException as error:
         return _refuse(error.format_message())
     except (InputError, OSError) as error:
         return _refuse_os(error) if isinstance(error, OSError) else _refuse(str(error))
-    except (KeyboardInterrupt, click.Abort):
+    except (KeyboardInterrupt, typer.Abort):
         sys.stderr.write("tagmetry: interrupted\n")
         return 130
     return result if isinstance(result, int) else 0
