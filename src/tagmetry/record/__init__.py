@@ -1,0 +1,5 @@
+"""Results out and in."""
+
+from tagmetry.record.result import ImageResult, MarkerResult
+
+__all__ = ["ImageResult", "MarkerResult"]
