@@ -10,7 +10,7 @@ class InputError(ValueError):
 
 
 class MissingExtraError(InputError):
-    """An optional part of tagmetry is not installed; the text gives the command that installs it."""
+    """An optional part of tagmetry is missing; the text gives the command that installs it."""
 
     def __init__(self, purpose: str, extra: str) -> None:
         super().__init__(f"{purpose} needs an optional part: pip install 'tagmetry[{extra}]'")

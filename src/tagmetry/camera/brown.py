@@ -116,7 +116,7 @@ def fold_radius(coefficients: Array) -> float:
         np.polymul(np.polyadd(above, 2 * np.polymul(q, np.polyder(above))), below),
         2 * np.polymul(q, np.polymul(above, np.polyder(below))),
     )
-    roots = np.concatenate([np.roots(np.trim_zeros(p, "f")) for p in (slope, below)])
+    roots = np.concatenate([np.roots(polynomial) for polynomial in (slope, below)])
     real = roots.real[(np.abs(roots.imag) < 1e-9 * (1 + np.abs(roots))) & (roots.real > 0)]
     return float(np.sqrt(real.min())) if real.size else float("inf")
 

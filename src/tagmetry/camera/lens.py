@@ -124,7 +124,7 @@ class FisheyeLens:
     def fold_angle_rad(self) -> float:
         """Angle from the optical axis up to which the lens is one to one, at most pi."""
         k1, k2, k3, k4 = self.coefficients
-        roots = np.roots(np.trim_zeros([9 * k4, 7 * k3, 5 * k2, 3 * k1, 1.0], "f"))
+        roots = np.roots([9 * k4, 7 * k3, 5 * k2, 3 * k1, 1.0])
         real = roots.real[(np.abs(roots.imag) < 1e-9 * (1 + np.abs(roots))) & (roots.real > 0)]
         return min(np.pi, float(np.sqrt(real.min()))) if real.size else float(np.pi)
 

@@ -5,7 +5,7 @@ Frames: `camera` is x right, y down, z forward. An integer pixel is a pixel's ce
     u = fx x'' + cx,  v = fy y'' + cy        with (x'', y'') the bent ray of `lens`
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Self
 
 import numpy as np
@@ -36,7 +36,7 @@ class Camera:
     height_px: int
     focal_px: tuple[float, float]
     center_px: tuple[float, float]
-    lens: Lens = BrownLens()
+    lens: Lens = field(default_factory=BrownLens)
     covariance: Array | None = None
     zoom: float = 1.0
     focus: float | None = None
@@ -60,9 +60,7 @@ class Camera:
             )
 
     @classmethod
-    def from_matrix(
-        cls, width_px: int, height_px: int, K: Array, lens: Lens | None = None
-    ) -> Self:
+    def from_matrix(cls, width_px: int, height_px: int, K: Array, lens: Lens | None = None) -> Self:
         """Return the camera with intrinsics K = [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]."""
         K = np.asarray(K, dtype=np.float64)
         if K.shape != (3, 3):
@@ -121,7 +119,7 @@ class Camera:
             pixels: Shape (..., 2), as the camera gives them (distorted).
 
         Returns:
-            Unit vectors in the camera frame, shape (..., 3); NaN where the lens model shows nothing.
+            Unit vectors in the camera frame, shape (..., 3); NaN where the lens shows nothing.
         """
         bent = (np.asarray(pixels, dtype=np.float64) - self.center_px) / self.focal_px
         return self.lens.straighten(bent)

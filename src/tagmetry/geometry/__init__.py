@@ -7,8 +7,8 @@ from tagmetry.geometry.planes import Plane
 from tagmetry.geometry.transforms import (
     RigidTransform,
     cross_matrix,
-    pose_difference,
     perturb_pose,
+    pose_difference,
 )
 from tagmetry.geometry.uncertainty import UncertainTransform, mahalanobis_squared
 

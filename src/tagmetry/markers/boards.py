@@ -11,6 +11,7 @@ import numpy as np
 
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform
+from tagmetry.geometry.arrays import BoolArray
 from tagmetry.markers.bodies import MarkerBody, MountedMarker
 
 
@@ -271,9 +272,9 @@ def _at(x_m: float, y_m: float) -> RigidTransform:
     return RigidTransform.from_translation([x_m, y_m, 0.0])
 
 
-def _checkered(columns: int, rows: int) -> "np.ndarray[tuple[int, int], np.dtype[np.bool_]]":
+def _checkered(columns: int, rows: int) -> BoolArray:
     """Return a pattern that is True at the top left."""
-    return np.add.outer(np.arange(rows), np.arange(columns)) % 2 == 0
+    return np.asarray(np.add.outer(np.arange(rows), np.arange(columns)) % 2 == 0)
 
 
 def _black_squares_m(columns: int, rows: int, square_m: float, first_black: bool) -> Array:

@@ -30,7 +30,8 @@ def marker_corners_m(size_m: Array | float) -> Array:
     Args:
         size_m: Side of the black square, shape (...).
     """
-    return np.asarray(size_m, dtype=np.float64)[..., None, None] * _UNIT_CORNERS
+    side_m = np.asarray(size_m, dtype=np.float64)
+    return np.asarray(side_m[..., None, None] * _UNIT_CORNERS)
 
 
 @dataclass(frozen=True)

@@ -81,12 +81,13 @@ class MarkerFamily:
 
     @cached_property
     def turned_codes(self) -> Array:
-        """All codes as -1 and +1, shape (4 * ids, bits): all ids upright, then turned by 90°, …"""
+        """Codes as -1 and +1, shape (4 * ids, bits): upright, then turned by 1, 2, 3 quarters."""
         turned = self.codes[:, self.layout.rotations]
-        return np.swapaxes(turned, 0, 1).reshape(-1, self.layout.bit_count) * 2.0 - 1.0
+        stacked = np.swapaxes(turned, 0, 1).reshape(-1, self.layout.bit_count)
+        return np.where(stacked, 1.0, -1.0)
 
     def minimum_distance(self) -> int:
-        """Return the least number of bits in which two markers, or one and itself turned, differ."""
+        """Return the least number of differing bits of two markers, or of one and itself turned."""
         upright = self.turned_codes[: len(self)]
         agreement = upright @ self.turned_codes.T
         np.fill_diagonal(agreement, -np.inf)  # each upright marker against itself

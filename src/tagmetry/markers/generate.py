@@ -39,8 +39,8 @@ def generate_family(
     """
     if not 3 <= data_cells <= 16 or count < 1 or minimum_distance < 1:
         raise InputError(
-            "a family needs 3 to 16 cells per side, at least 1 marker and a distance of at least 1, "
-            f"got {data_cells}, {count} and {minimum_distance}"
+            "a family needs 3 to 16 cells per side, at least 1 marker and a distance of at least "
+            f"1, got {data_cells}, {count} and {minimum_distance}"
         )
     layout = Layout.square(data_cells)
     kept = np.zeros((0, layout.bit_count), dtype=bool)

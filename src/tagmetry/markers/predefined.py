@@ -33,7 +33,7 @@ _OPENCV_NAMES = {
     "tag36h11": "DICT_APRILTAG_36h11",
 }
 
-# (minimum distance over all pairs and turns - 1) // 2, measured; `test_predefined` measures it again.
+# (minimum distance over all pairs and turns - 1) // 2; `test_predefined` measures it again.
 # aruco_original has markers that equal another one turned: nothing can be corrected there.
 _CORRECTION_BITS = {
     "4x4_50": 1, "4x4_100": 1, "4x4_250": 1, "4x4_1000": 0,
@@ -44,7 +44,7 @@ _CORRECTION_BITS = {
     "tag16h5": 2, "tag25h9": 4, "tag36h10": 4, "tag36h11": 5,
 }  # fmt: skip
 
-_BORDER_SUFFIX = re.compile(r"^(?P<family>.+)_border(?P<cells>\d+)$")
+_BORDER_SUFFIX = re.compile(r"^(?P<family>.+)_border(?P<cells>\d)$")
 
 
 def family_names() -> tuple[str, ...]:
