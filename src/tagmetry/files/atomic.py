@@ -1,0 +1,68 @@
+"""Files appear whole or not at all.
+
+What is written goes to a temporary file in the same folder, which takes the place of the old one
+in a single step. Whatever interrupts the writing, an error, Ctrl-C or a full disk, the old file
+stays as it was and nothing half-written is left.
+"""
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import BinaryIO, Literal
+
+from tagmetry.errors import InputError
+
+
+def write_atomically(path: Path, content: bytes | str) -> None:
+    """Write a whole file; text becomes UTF-8.
+
+    Raises:
+        InputError: The file cannot be written there.
+    """
+    encoded = content.encode() if isinstance(content, str) else content
+    with replace_file(path) as file:
+        file.write(encoded)
+
+
+@contextmanager
+def replace_file(path: Path) -> Iterator[BinaryIO]:
+    """Give a file to write to; it takes the place of `path` when the block ends without an error.
+
+    A link is followed, an existing file's permissions are kept, and a device or pipe such as
+    `/dev/stdout` is written directly.
+
+    Raises:
+        InputError: The file cannot be written there.
+    """
+    target = Path(os.path.realpath(path))
+    if target.exists() and not target.is_file():
+        with _opened(path, target, "wb") as device:
+            yield device
+        return
+    temporary = target.with_name(f".tagmetry-{secrets.token_hex(8)}.tmp")
+    file = _opened(path, temporary, "xb")
+    try:
+        with file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        if target.exists():
+            shutil.copymode(target, temporary)
+        temporary.replace(target)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _opened(path: Path, opened: Path, mode: Literal["wb", "xb"]) -> BinaryIO:
+    """Open a file; an error names the path that was asked for."""
+    try:
+        return opened.open(mode)
+    except FileNotFoundError as error:
+        raise InputError(
+            f"cannot write {path}: there is no folder {opened.parent}; create it first"
+        ) from error
+    except OSError as error:
+        raise InputError(f"cannot write {path}: {error.strerror}") from error
