@@ -10,7 +10,7 @@ PINNED := $(INSTALL) --require-hashes --only-binary=:all:
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-slow check format docs pictures bench wheel requirements clean
+.PHONY: help demo test test-slow check format docs pages bench wheel requirements clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -36,8 +36,9 @@ format: $(VENV)/dev.stamp ## Format the code and mend what lint can mend
 docs: $(VENV)/dev.stamp ## Build the documentation into site/
 	$(BIN)/mkdocs build --strict --quiet
 
-pictures: $(VENV)/dev.stamp ## Make the pictures of README and documentation anew
+pages: $(VENV)/dev.stamp ## Make the pictures and the command reference of the docs anew
 	$(BIN)/python docs/make_pictures.py
+	$(BIN)/python docs/make_cli_page.py
 
 bench: $(VENV)/dev.stamp ## Time detection and pose
 	$(BIN)/python benchmarks/detect_and_pose.py
