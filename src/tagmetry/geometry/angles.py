@@ -14,7 +14,7 @@ from tagmetry.geometry.arrays import Array
 def wrap_angle_rad(angle_rad: Array | float) -> Array:
     """Return the same direction in (-pi, pi], shape of the input."""
     wrapped = np.pi - np.mod(np.pi - np.asarray(angle_rad, dtype=np.float64), 2 * np.pi)
-    return np.asarray(wrapped)
+    return np.where(wrapped == -np.pi, np.pi, wrapped)  # `mod` may round up to 2 pi
 
 
 def mean_angle_rad(angles_rad: Array, weights: Array | None = None) -> float:

@@ -15,8 +15,8 @@ def square_to_quad(corners: Array) -> Array:
         corners: Images of (0, 0), (1, 0), (1, 1), (0, 1), shape (..., 4, 2).
 
     Returns:
-        H with `H @ (u, v, 1) ~ (x, y, 1)`, shape (..., 3, 3); not finite for three corners on a
-        line.
+        H with `H @ (u, v, 1) ~ (x, y, 1)`, shape (..., 3, 3); singular or not finite for three
+        corners on a line.
     """
     (x0, y0), (x1, y1), (x2, y2), (x3, y3) = np.moveaxis(
         np.asarray(corners, dtype=np.float64), (-2, -1), (0, 1)
@@ -27,12 +27,11 @@ def square_to_quad(corners: Array) -> Array:
         determinant = dx1 * dy2 - dx2 * dy1
         g = (sum_x * dy2 - dx2 * sum_y) / determinant
         h = (dx1 * sum_y - sum_x * dy1) / determinant
-    one = np.ones_like(g)
-    rows = [
-        [x1 - x0 + g * x1, x3 - x0 + h * x3, x0],
-        [y1 - y0 + g * y1, y3 - y0 + h * y3, y0],
-        [g, h, one],
-    ]
+        rows = [
+            [x1 - x0 + g * x1, x3 - x0 + h * x3, x0],
+            [y1 - y0 + g * y1, y3 - y0 + h * y3, y0],
+            [g, h, np.ones_like(g)],
+        ]
     return np.stack([np.stack(np.broadcast_arrays(*row), axis=-1) for row in rows], axis=-2)
 
 

@@ -33,8 +33,10 @@ class Plane:
         points = np.asarray(points, dtype=np.float64)
         if points.ndim != 2 or points.shape[0] < 3 or points.shape[1] != 3:
             raise InputError(f"a plane needs points of shape (n >= 3, 3), got {points.shape}")
+        if not np.isfinite(points).all():
+            raise InputError("a plane needs finite points")
         centre = points.mean(axis=0)
-        _, spread, axes = np.linalg.svd(points - centre)
+        _, spread, axes = np.linalg.svd(points - centre, full_matrices=False)
         if spread[1] <= 1e-9 * max(spread[0], 1e-300):
             raise InputError("the points lie on one line and define no plane")
         normal = axes[2] * np.sign(axes[2][np.argmax(np.abs(axes[2]))])
