@@ -175,8 +175,7 @@ def _through_jacobian(M: Array, xy: Array) -> Array:
 
 
 def _solve_2x2(matrix: Array, right: Array) -> Array:
-    (a, b), (c, d) = matrix[..., 0, :].T, matrix[..., 1, :].T
-    a, b, c, d = a.T, b.T, c.T, d.T
+    (a, b), (c, d) = np.moveaxis(matrix, (-2, -1), (0, 1))
     determinant = a * d - b * c
     determinant = np.where(np.abs(determinant) < 1e-12, 1e-12, determinant)
     x, y = right[..., 0], right[..., 1]

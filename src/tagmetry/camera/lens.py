@@ -131,21 +131,16 @@ class FisheyeLens:
     def bend(self, p_camera: Array) -> Array:
         """Return distorted normalised coordinates (..., 2) of points (..., 3)."""
         angle, across = self._angle(p_camera)
-        near_axis = across < 1e-9 * np.abs(p_camera[..., 2])
-        with np.errstate(divide="ignore", invalid="ignore"):
-            scale = np.where(near_axis, 1 / p_camera[..., 2], self._radius(angle) / across)
+        scale = self._scale(angle, across, p_camera[..., 2])
         return np.asarray(scale[..., None] * p_camera[..., :2])
 
     def jacobians(self, p_camera: Array) -> tuple[Array, Array]:
         """Return d(bent) / d(point) (..., 2, 3) and d(bent) / d(coefficients) (..., 2, n)."""
         angle, across = self._angle(p_camera)
         x, y, z = np.moveaxis(p_camera, -1, 0)
-        across = np.maximum(across, 1e-12 * np.abs(z))
-        radius, slope, distance2 = self._radius(angle), self._slope(angle), across**2 + z**2
-        along, aside = slope * z / distance2, radius / across
-        direction = np.stack([x / across, y / across], axis=-1)
-        on_axis = (across < 1e-9 * np.abs(z))[..., None]
-        direction = np.where(on_axis, [1.0, 0.0], direction)
+        slope, distance2 = self._slope(angle), across**2 + z**2
+        along, aside = slope * z / distance2, self._scale(angle, across, z)
+        direction = np.stack([x, y], axis=-1) / np.maximum(across, 1e-300)[..., None]
         outer = direction[..., :, None] * direction[..., None, :]
         by_xy = (along - aside)[..., None, None] * outer + aside[..., None, None] * np.eye(2)
         by_z = -(slope * across / distance2)[..., None] * direction
@@ -163,8 +158,14 @@ class FisheyeLens:
 
     def _angle(self, p_camera: Array) -> tuple[Array, Array]:
         across = np.hypot(p_camera[..., 0], p_camera[..., 1])
-        angle = np.arctan2(across, p_camera[..., 2])
-        return np.where(angle < self.fold_angle_rad, angle, np.nan), across
+        angle, distance = np.arctan2(across, p_camera[..., 2]), np.hypot(across, p_camera[..., 2])
+        seen = (angle < self.fold_angle_rad) & (distance > 0) & (distance < np.inf)
+        return np.where(seen, angle, np.nan), across
+
+    def _scale(self, angle: Array, across: Array, z: Array) -> Array:
+        """Return the image radius over the distance from the axis; at the axis it is 1 / z."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(across < 1e-9 * z, 1 / z, self._radius(angle) / across)
 
     def _radius(self, angle: Array) -> Array:
         k1, k2, k3, k4 = self.coefficients
@@ -187,7 +188,8 @@ class FisheyeLens:
         for _ in range(3):
             slope = np.maximum(self._slope(angle), 1e-6)
             angle = angle - (self._radius(angle) - radius) / slope
-        return np.where(np.abs(self._radius(angle) - radius) < 1e-9, angle, np.nan)
+        reached = (np.abs(self._radius(angle) - radius) < 1e-9) & (angle < self.fold_angle_rad)
+        return np.where(reached, angle, np.nan)
 
 
 def _check_finite(coefficients: tuple[float, ...]) -> None:

@@ -121,8 +121,9 @@ class Camera:
         Returns:
             Unit vectors in the camera frame, shape (..., 3); NaN where the lens shows nothing.
         """
-        bent = (np.asarray(pixels, dtype=np.float64) - self.center_px) / self.focal_px
-        return self.lens.straighten(bent)
+        pixels = np.asarray(pixels, dtype=np.float64)
+        pixels = np.where(np.isfinite(pixels), pixels, np.nan)
+        return self.lens.straighten((pixels - self.center_px) / self.focal_px)
 
     def contains(self, pixels: Array) -> "np.ndarray[tuple[int, ...], np.dtype[np.bool_]]":
         """Say for pixels (..., 2) whether they lie on the image."""

@@ -82,16 +82,17 @@ def _turned_once(camera: Camera) -> Camera:
 
 
 def _coefficient_turn(coefficients: tuple[float, ...]) -> Array:
-    """Return the matrix that turns Brown coefficients: p1' = p2, p2' = -p1, prism likewise."""
+    """Return the matrix that turns Brown coefficients.
+
+    p1' = p2, p2' = -p1; s1' = -s3, s3' = s1; s2' = -s4, s4' = s2; tx' = -ty, ty' = tx.
+    """
     if any(coefficients[12:]):
         raise InputError("a lens with a tilted sensor (14 coefficients) cannot be turned exactly")
     turn = np.eye(len(coefficients))
-    for first, second in ((2, 3),):
-        if len(coefficients) > second:
-            turn[[first, second]] = turn[[second, first]] * [[1.0], [-1.0]]
-    if len(coefficients) >= 12:  # x' takes s1, s2; y' takes s3, s4
-        turn[8:12] = 0.0
-        turn[[8, 9, 10, 11], [10, 11, 8, 9]] = [-1.0, -1.0, 1.0, 1.0]
+    swaps = [(2, 3, 1.0), (8, 10, -1.0), (9, 11, -1.0), (12, 13, -1.0)]
+    for first, second, sign in swaps:
+        if second < len(coefficients):
+            turn[[first, second]] = sign * turn[second], -sign * turn[first]
     return turn
 
 
