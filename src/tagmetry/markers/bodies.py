@@ -4,6 +4,7 @@ Frames: `marker` has its origin at the centre, x to its right, y to its top, z o
 `body` is the body's own. Corners go clockwise from the marker's own top left.
 """
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -64,8 +65,8 @@ class MarkerBody:
     markers: tuple[MountedMarker, ...]
 
     def __post_init__(self) -> None:
-        keys = [MarkerKey(marker.family, marker.id) for marker in self.markers]
-        if repeated := {key for key in keys if keys.count(key) > 1}:
+        times = Counter((marker.family, marker.id) for marker in self.markers)
+        if repeated := [key for key, count in times.items() if count > 1]:
             family, marker_id = min(repeated)
             raise InputError(
                 f"body {self.name!r} has {family} id {marker_id} twice; a marker is named by its "
@@ -93,7 +94,7 @@ def cube(
     """
     if len(ids) != 6:
         raise InputError(f"a cube has six faces, got {len(ids)} ids; give None for a bare face")
-    if not 0 < size_m <= side_m:
+    if not 0 < size_m <= side_m < np.inf:
         raise InputError(f"a marker of {size_m} m does not fit a cube's face of {side_m} m")
     mounted = [
         MountedMarker(family, marker_id, size_m, _on_face(R_body_marker, side_m))
