@@ -1,0 +1,115 @@
+"""Write the parts of the documentation that follow from the program: `make pages`.
+
+A test compares what is committed with what this gives, so that the pages cannot drift.
+"""
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import typer
+from typer.core import TyperArgument, TyperCommand, TyperGroup, TyperOption
+
+import tagmetry.cli.main
+from tagmetry.markers import family, family_names
+
+DOCS = Path(__file__).parent
+
+Command = TyperCommand | TyperGroup
+Parameter = TyperArgument | TyperOption
+
+CLI_INTRODUCTION = """\
+# Command line
+
+Written by the program itself; `tagmetry COMMAND --help` says the same.
+
+Exit codes: 0 done, 1 a fault of the program, 2 an input that cannot be used (one line on standard
+error says what was expected, what was found and what to do), 130 interrupted.
+"""
+
+
+def command_line() -> str:
+    """Return the page with all commands and their options."""
+    root = typer.main.get_command(tagmetry.cli.main.app)
+    sections = [section(*command) for command in commands(root, "tagmetry") if command[1] != root]
+    return "\n".join([CLI_INTRODUCTION, *sections])
+
+
+def commands(command: Command, name: str) -> Iterator[tuple[str, Command]]:
+    """Give a command and those below it with their full names."""
+    yield name, command
+    for key, below in sorted(getattr(command, "commands", {}).items()):
+        yield from commands(below, f"{name} {key}")
+
+
+def section(name: str, command: Command) -> str:
+    """Return the part of the page about one command."""
+    lines = [f"{'#' * name.count(' ')}# {name}", "", plain(command.help), ""]
+    shown = [p for p in command.params if p.name != "help" and not getattr(p, "hidden", False)]
+    if shown:
+        rows = [f"| {spelled(p)} | {cell(p.help)} | {default(p)} |" for p in shown]
+        lines += ["| | | default |", "|---|---|---|", *rows, ""]
+    return "\n".join(lines)
+
+
+def spelled(parameter: Parameter) -> str:
+    """Return how a parameter is typed: `--size LENGTH`, `SOURCES…`."""
+    many = " …" if parameter.multiple or parameter.nargs == -1 else ""
+    if parameter.param_type_name == "argument":
+        return f"`{(parameter.metavar or parameter.name).upper().strip('[].')}`{many}"
+    both = "`, `".join([*parameter.opts, *parameter.secondary_opts])
+    return f"`{both}`{many}"
+
+
+def default(parameter: Parameter) -> str:
+    """Return what holds when a parameter is not given."""
+    if parameter.required:
+        return "required"
+    value = parameter.default
+    if callable(value) or value in (None, False, "", (), []):
+        return ""
+    return f"`{getattr(value, 'value', value)}`"
+
+
+def cell(text: str | None) -> str:
+    """Return a help text as one cell of a table."""
+    return plain(text).replace("\n", " ").replace("|", "\\|")
+
+
+def plain(text: str | None) -> str:
+    """Return a help text without the marks that only a terminal understands."""
+    return re.sub(r"\s*\f.*", "", (text or "").strip(), flags=re.DOTALL)
+
+
+def forgiven_bits() -> str:
+    """Return the table of how many wrong bits each family forgives, and at what chance."""
+    rows = [
+        "| family | bits | ids | repairable | forgiven | random match |",
+        "|---|---|---|---|---|---|",
+    ]
+    for name in family_names():
+        markers = family(name)
+        chance = markers.chance_of_random_match(markers.forgiven_bits)
+        rows.append(
+            f"| `{name}` | {markers.layout.bit_count} | {len(markers)} | "
+            f"{markers.correction_bits} | {markers.forgiven_bits} | {chance:.1g} |"
+        )
+    return "\n".join(rows) + "\n"
+
+
+PAGES: dict[str, Callable[[], str]] = {
+    "cli.md": command_line,
+    "generated/forgiven.md": forgiven_bits,
+}
+
+
+def write() -> None:
+    """Write all pages."""
+    for name, page in PAGES.items():
+        path = DOCS / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write()
