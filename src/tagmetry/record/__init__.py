@@ -1,5 +1,17 @@
 """Results out and in."""
 
+from tagmetry.record.formats import open_writer, read_results
+from tagmetry.record.jsonl import CutLineWarning, format_line, parse_line
 from tagmetry.record.result import ImageResult, MarkerResult
+from tagmetry.record.whole import Writer
 
-__all__ = ["ImageResult", "MarkerResult"]
+__all__ = [
+    "CutLineWarning",
+    "ImageResult",
+    "MarkerResult",
+    "Writer",
+    "format_line",
+    "open_writer",
+    "parse_line",
+    "read_results",
+]
