@@ -12,6 +12,7 @@ Seed 001 (its equations 4 and 6) adds the undistorted point twice; here it is co
 
 import numpy as np
 
+from tagmetry.camera.fold import least_positive_root
 from tagmetry.geometry.arrays import Array
 
 COEFFICIENTS = 14
@@ -100,7 +101,7 @@ def undistort(bent: Array, coefficients: Array, fold_radius: float) -> Array:
         reach = np.maximum(1.0, 2 * np.linalg.norm(step, axis=-1, keepdims=True) / (0.5 * limit))
         xy = _within(xy - step / reach, limit)
     error = np.linalg.norm(distort(xy, coefficients) - bent, axis=-1)
-    found = (error < 1e-10) & (np.linalg.det(jacobian_by_point(xy, coefficients)) > 0)
+    found = (error < 1e-10) & (_determinant(jacobian_by_point(xy, coefficients)) > 0)
     return np.where(found[..., None], xy, np.nan)
 
 
@@ -116,9 +117,7 @@ def fold_radius(coefficients: Array) -> float:
         np.polymul(np.polyadd(above, 2 * np.polymul(q, np.polyder(above))), below),
         2 * np.polymul(q, np.polymul(above, np.polyder(below))),
     )
-    roots = np.concatenate([np.roots(polynomial) for polynomial in (slope, below)])
-    real = roots.real[(np.abs(roots.imag) < 1e-9 * (1 + np.abs(roots))) & (roots.real > 0)]
-    return float(np.sqrt(real.min())) if real.size else float("inf")
+    return float(np.sqrt(min(least_positive_root(p[::-1]) for p in (slope, below))))
 
 
 def tilt_matrix(tilt_x_rad: float, tilt_y_rad: float) -> Array:
@@ -176,10 +175,15 @@ def _through_jacobian(M: Array, xy: Array) -> Array:
 
 def _solve_2x2(matrix: Array, right: Array) -> Array:
     (a, b), (c, d) = np.moveaxis(matrix, (-2, -1), (0, 1))
-    determinant = a * d - b * c
+    determinant = _determinant(matrix)
     determinant = np.where(np.abs(determinant) < 1e-12, 1e-12, determinant)
     x, y = right[..., 0], right[..., 1]
     return np.stack([d * x - b * y, a * y - c * x], axis=-1) / determinant[..., None]
+
+
+def _determinant(matrix: Array) -> Array:
+    (a, b), (c, d) = np.moveaxis(matrix, (-2, -1), (0, 1))
+    return np.asarray(a * d - b * c)
 
 
 def _within(xy: Array, radius: float) -> Array:

@@ -12,6 +12,7 @@ from typing import Literal, Protocol
 import numpy as np
 
 from tagmetry.camera import brown
+from tagmetry.camera.fold import least_positive_root
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import Array
 
@@ -124,9 +125,8 @@ class FisheyeLens:
     def fold_angle_rad(self) -> float:
         """Angle from the optical axis up to which the lens is one to one, at most pi."""
         k1, k2, k3, k4 = self.coefficients
-        roots = np.roots([9 * k4, 7 * k3, 5 * k2, 3 * k1, 1.0])
-        real = roots.real[(np.abs(roots.imag) < 1e-9 * (1 + np.abs(roots))) & (roots.real > 0)]
-        return min(np.pi, float(np.sqrt(real.min()))) if real.size else float(np.pi)
+        slope = np.array([1.0, 3 * k1, 5 * k2, 7 * k3, 9 * k4])  # in the squared angle
+        return float(min(np.pi, np.sqrt(least_positive_root(slope))))
 
     def bend(self, p_camera: Array) -> Array:
         """Return distorted normalised coordinates (..., 2) of points (..., 3)."""

@@ -122,7 +122,8 @@ class Camera:
             Unit vectors in the camera frame, shape (..., 3); NaN where the lens shows nothing.
         """
         pixels = np.asarray(pixels, dtype=np.float64)
-        pixels = np.where(np.isfinite(pixels), pixels, np.nan)
+        usable = np.isfinite(pixels).all(axis=-1, keepdims=True)
+        pixels = np.where(usable, pixels, np.nan)
         return self.lens.straighten((pixels - self.center_px) / self.focal_px)
 
     def contains(self, pixels: Array) -> "np.ndarray[tuple[int, ...], np.dtype[np.bool_]]":
