@@ -10,6 +10,7 @@ import typer
 from typer.exceptions import TyperException
 
 from tagmetry import __version__
+from tagmetry.cli.print import app as print_app
 from tagmetry.errors import InputError
 
 app = typer.Typer(
@@ -18,6 +19,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
+app.add_typer(print_app, name="print")
 
 
 def _print_version(wanted: bool) -> None:

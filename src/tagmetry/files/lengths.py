@@ -63,3 +63,8 @@ def _parse_entry(entry: str) -> tuple[int, float]:
 def _shown(text: str) -> str:
     """Return the text quoted, shortened when long."""
     return repr(text if len(text) <= _LONGEST_SHOWN else text[:_LONGEST_SHOWN] + "…")
+
+
+def format_mm(length_m: float) -> str:
+    """Return a length as people read it, in millimetres: `101.6 mm`."""
+    return f"{1000 * length_m:.7g} mm"
