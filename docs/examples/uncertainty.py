@@ -11,4 +11,5 @@ p_camera, tip_covariance = T_camera_marker.apply(np.array([0.3, 0.0, 0.0]))
 print("tip at", p_camera, "m, ±", 1000 * np.sqrt(np.diag(tip_covariance)), "mm")
 
 T_marker_camera = T_camera_marker.inverse()
-print("camera seen from the marker: ±", 1000 * np.sqrt(np.diag(T_marker_camera.covariance)[:3]), "mm")
+camera_deviation_mm = 1000 * np.sqrt(np.diag(T_marker_camera.covariance)[:3])
+print("camera seen from the marker: ±", camera_deviation_mm, "mm")

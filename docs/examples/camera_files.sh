@@ -1,0 +1,2 @@
+tagmetry camera show camera.yaml
+tagmetry camera convert camera.yaml half.yaml --scale-to 640x360

@@ -1,0 +1,1 @@
+tagmetry doctor photo.png
