@@ -129,7 +129,8 @@ def test_an_error_leaves_the_whole_lines(tmp_path, make_result) -> None:
             writer.write(make_result())
             raise RuntimeError
 
-    pytest.raises(RuntimeError, failing_run)
+    with pytest.raises(RuntimeError):
+        failing_run()
     assert len(list(read_results(path))) == 1
 
 

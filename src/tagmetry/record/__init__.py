@@ -1,7 +1,8 @@
-"""Results out and in."""
+"""Results out and in, and pictures of them."""
 
 from tagmetry.record.formats import open_writer, read_results
 from tagmetry.record.jsonl import CutLineWarning, format_line, parse_line
+from tagmetry.record.overlay import draw_overlay
 from tagmetry.record.result import ImageResult, MarkerResult
 from tagmetry.record.whole import Writer
 
@@ -10,6 +11,7 @@ __all__ = [
     "ImageResult",
     "MarkerResult",
     "Writer",
+    "draw_overlay",
     "format_line",
     "open_writer",
     "parse_line",
