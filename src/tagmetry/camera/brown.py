@@ -91,7 +91,7 @@ def undistort(bent: Array, coefficients: Array, fold_radius: float) -> Array:
     Returns:
         Shape (..., 2); NaN where no ideal point within the fold radius is bent to there.
     """
-    limit = min(fold_radius, 1e3)
+    limit = min(fold_radius * (1 - 1e-9), 1e3)  # a pole of g may lie at the fold itself
     xy = _within(bent, 0.99 * limit)
     for _ in range(60):
         error = distort(xy, coefficients) - bent
