@@ -31,6 +31,15 @@ class Layout:
     bit_cells: tuple[tuple[int, int], ...]
     white_border: bool = False
 
+    def __post_init__(self) -> None:
+        cells = set(self.bit_cells)
+        turned = {self._turned(cell) for cell in cells}
+        if not cells or turned != cells or len(cells) < len(self.bit_cells):
+            raise InputError(
+                "a layout needs bits, no two in one cell, and every bit must turn into another by "
+                f"a quarter turn of the {self.side_cells}x{self.side_cells} square"
+            )
+
     @classmethod
     def square(cls, data_cells: int, border_cells: int = 1) -> "Layout":
         """Return the classic layout: a black border around data_cells x data_cells bits."""
@@ -64,10 +73,15 @@ class Layout:
         """
         index = {cell: i for i, cell in enumerate(self.bit_cells)}
         turns = [np.arange(self.bit_count)]
-        quarter = [index[row, self.side_cells - 1 - column] for column, row in self.bit_cells]
+        quarter = [index[self._turned(cell)] for cell in self.bit_cells]
         for _ in range(3):
             turns.append(turns[-1][quarter])
         return np.stack(turns)
+
+    def _turned(self, cell: tuple[int, int]) -> tuple[int, int]:
+        """Return the cell that comes to lie at `cell` when the marker turns clockwise."""
+        column, row = cell
+        return row, self.side_cells - 1 - column
 
     def picture(self, code: BoolArray) -> BoolArray:
         """Return the marker as cells, True is white, shape (m, m), m = side + 2 * margin."""
