@@ -21,7 +21,7 @@ def filestorage_text(table: Table, *, as_json: bool) -> str:
     """Return the text of a table whose matrices are `OpenCVMatrix`."""
     if as_json:
         tagged = {key: _with_type_id(value) for key, value in table.items()}
-        return json.dumps(tagged, indent=4, ensure_ascii=False, allow_nan=False) + "\n"
+        return json.dumps(tagged, indent=4, ensure_ascii=False) + "\n"
     return "%YAML:1.0\n---\n" + yaml_of(table, _Dumper)
 
 

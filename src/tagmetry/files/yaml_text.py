@@ -18,7 +18,8 @@ from tagmetry.files.text import DEEPEST_NESTING
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _Node = yaml.ScalarEvent | yaml.CollectionStartEvent
 _OPENCV_HEADER = re.compile(r"\A%YAML:1\.0[^\n]*")
-_MATRIX_TAG = "tag:yaml.org,2002:opencv-matrix"
+_STANDARD = "tag:yaml.org,2002:"
+_MATRIX_TAG = _STANDARD + "opencv-matrix"
 
 
 def parse_yaml(text: str) -> object:
@@ -130,4 +131,5 @@ def _refuse_anchor_and_tag(event: _Node, allowed: tuple[str, ...]) -> None:
     if event.anchor is not None:
         raise InputError(f"anchors (&{event.anchor}) are not allowed; write the value out")
     if event.tag is not None and event.tag not in allowed:
-        raise InputError(f"the tag {shortened(event.tag)} is not allowed; only plain values are")
+        tag = shortened(event.tag.replace(_STANDARD, "!!"))
+        raise InputError(f"the tag {tag} is not allowed; only plain values are")
