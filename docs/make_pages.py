@@ -14,6 +14,8 @@ import tagmetry.cli.main
 from tagmetry.markers import family, family_names
 
 DOCS = Path(__file__).parent
+ROOT = DOCS.parent
+README_EXAMPLE = re.compile(r"<!-- (?P<path>\S+) -->\n```(?P<kind>\w+)\n.*?```", re.DOTALL)
 
 Command = TyperCommand | TyperGroup
 Parameter = TyperArgument | TyperOption
@@ -66,7 +68,7 @@ def default(parameter: Parameter) -> str:
     if parameter.required:
         return "required"
     value = parameter.default
-    if callable(value) or value in (None, False, "", (), []):
+    if value is None or value is False or callable(value) or value in ("", (), []):
         return ""
     return f"`{getattr(value, 'value', value)}`"
 
@@ -97,16 +99,28 @@ def forgiven_bits() -> str:
     return "\n".join(rows) + "\n"
 
 
+def readme() -> str:
+    """Return the README with its examples as their files are now."""
+    return README_EXAMPLE.sub(shown, (ROOT / "README.md").read_text(encoding="utf-8"))
+
+
+def shown(example: re.Match[str]) -> str:
+    """Return the part of the README that shows one example."""
+    text = (ROOT / example["path"]).read_text(encoding="utf-8")
+    return f"<!-- {example['path']} -->\n```{example['kind']}\n{text}```"
+
+
 PAGES: dict[str, Callable[[], str]] = {
-    "cli.md": command_line,
-    "generated/forgiven.md": forgiven_bits,
+    "README.md": readme,
+    "docs/cli.md": command_line,
+    "docs/generated/forgiven.md": forgiven_bits,
 }
 
 
 def write() -> None:
     """Write all pages."""
     for name, page in PAGES.items():
-        path = DOCS / name
+        path = ROOT / name
         path.parent.mkdir(exist_ok=True)
         path.write_text(page(), encoding="utf-8")
 

@@ -1,1 +1,2 @@
-tagmetry detect photo.png --family tag36h11 --size 120mm --camera camera.yaml --overlay overlay.png --out markers.jsonl
+tagmetry detect photo.png --family tag36h11 --size 120mm --camera camera.yaml \
+    --overlay overlay.png --out markers.jsonl

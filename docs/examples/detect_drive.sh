@@ -1,1 +1,2 @@
-tagmetry detect video.mp4 --family tag36h11 --size 160mm --camera camera.yaml --out drive.jsonl --overlay drive.mp4
+tagmetry detect video.mp4 --family tag36h11 --size 140mm --camera camera.yaml \
+    --overlay drive.mp4 --out drive.jsonl

@@ -1,0 +1,161 @@
+"""Every example of the documentation runs as it stands, in a folder that has what it reads."""
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+import tagmetry
+from tagmetry.camera import Camera
+from tagmetry.files import save_camera
+from tagmetry.geometry import Array, RigidTransform
+from tagmetry.geometry.transforms import Rotation
+from tagmetry.markers import GridBoard, MountedMarker, family
+
+SOURCE = Path(tagmetry.__file__).parents[1]
+EXAMPLES = Path(__file__).parents[1] / "docs" / "examples"
+NAMES = sorted(path.name for path in EXAMPLES.iterdir() if path.is_file())
+CAMERA = Camera(1280, 720, (1000.0, 1000.0), (639.5, 359.5), name="example")
+FINER = 4
+
+WALL = tuple(
+    MountedMarker("tag36h11", marker_id, 0.12, RigidTransform.from_translation([x_m, 0.0, 0.0]))
+    for marker_id, x_m in ((7, -0.2), (8, 0.2))
+)
+BOARD = GridBoard(3, 2, 0.08, 0.02, "tag36h11", first_id=20).markers()
+FLOOR = tuple(
+    MountedMarker("tag36h11", marker_id, size_m, RigidTransform.from_translation([x_m, y_m, 0]))
+    for marker_id, size_m, x_m, y_m in (
+        (0, 0.15, 0.0, 0.0),
+        (1, 0.05, 0.2, 0.1),
+        (2, 0.05, -0.2, 0),
+    )
+)
+WRITTEN = {
+    "camera_files.py": ("half.yaml", "middle.yaml"),
+    "camera_files.sh": ("half.yaml",),
+    "detect.sh": ("overlay.png", "markers.jsonl"),
+    "detect_drive.sh": ("drive.mp4", "drive.jsonl"),
+    "detect_only.sh": ("overlay.png", "markers.jsonl"),
+    "detect_video.sh": ("robots.parquet",),
+    "print_micro.sh": ("micro.pdf", "micro.svg"),
+    "print_robots.sh": ("robots.pdf", "floor.pdf"),
+    "print_sheet.sh": ("sheet.pdf",),
+    "print_walls.sh": ("wall7.pdf", "board.pdf"),
+    "rough_camera.py": ("rough.yaml",),
+}
+SAID = {
+    "board_pose.py": "6 markers, board at",
+    "detect.py": "tag36h11 7 ",
+    "doctor.sh": "tag36h11",
+    "floor_positions.py": "robot 1: +0.20",
+    "pose.py": "tag36h11 8: ",
+    "read_results.py": "photo.png 7 ",
+    "robot_position.py": "camera at",
+    "wall_body.py": "seen by 2",
+}
+AFTER = {"read_results.py": "detect.sh", "floor_positions.py": "detect_video.sh"}
+NEEDS = {
+    "detect_drive.sh": ["av"],
+    "detect_video.sh": ["av", "pyarrow"],
+    "floor_positions.py": ["av", "pyarrow"],
+    **{name: ["reportlab"] for name in NAMES if name.startswith("print_")},
+}
+
+
+def photograph(markers: Iterable[MountedMarker], tilt_deg: float, depth_m: float) -> Array:
+    """Render markers on a grey wall that leans back by an angle, seen by `CAMERA`."""
+    R_camera_wall = Rotation.from_euler("x", 180 + tilt_deg, degrees=True)
+    T_camera_wall = RigidTransform.from_components([0.0, 0.0, depth_m], R_camera_wall)
+    canvas = np.full((CAMERA.height_px * FINER, CAMERA.width_px * FINER), 170, np.uint8)
+    for marker in markers:
+        paste(canvas, marker, T_camera_wall)
+    image = cv2.resize(canvas, CAMERA.size_px, interpolation=cv2.INTER_AREA)
+    noise = np.random.default_rng(1).normal(0, 2, image.shape)
+    return np.clip(cv2.GaussianBlur(image, (0, 0), 0.6) + noise, 0, 255).astype(np.uint8)
+
+
+def paste(canvas: Array, marker: MountedMarker, T_camera_wall: RigidTransform) -> None:
+    """Draw one marker with a quiet zone of one cell onto the finer canvas."""
+    cells = np.pad(family(marker.family).picture(marker.id), 1, constant_values=True)
+    grey = np.kron(np.where(cells, 230, 20).astype(np.uint8), np.ones((32, 32), np.uint8))
+    side = 32 * (len(cells) - 2)
+    corners_px = CAMERA.project(T_camera_wall.apply(marker.corners_m))
+    finer = (corners_px + 0.5) * FINER - 0.5
+    inner = np.array([[0, 0], [side, 0], [side, side], [0, side]]) + 32 - 0.5
+    H = cv2.getPerspectiveTransform(inner.astype(np.float32), finer.astype(np.float32))
+    size = canvas.shape[::-1]
+    mask = cv2.warpPerspective(np.full_like(grey, 255), H, size)
+    canvas[mask > 127] = cv2.warpPerspective(grey, H, size)[mask > 127]
+
+
+def write_video(path: Path, image: Array) -> None:
+    av = pytest.importorskip("av", reason="videos need the part video")
+    with av.open(str(path), "w") as container:
+        stream = container.add_stream("mpeg4", rate=10)
+        stream.width, stream.height, stream.pix_fmt = CAMERA.width_px, CAMERA.height_px, "yuv420p"
+        stream.bit_rate = 20_000_000
+        for _ in range(3):
+            frame = av.VideoFrame.from_ndarray(np.repeat(image[..., None], 3, axis=2), "bgr24")
+            container.mux(stream.encode(frame))
+        container.mux(stream.encode())
+
+
+@pytest.fixture(scope="module")
+def shelf(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The files that examples read, and the command `tagmetry`, made once."""
+    folder = tmp_path_factory.mktemp("shelf")
+    cv2.imwrite(str(folder / "photo.png"), photograph(WALL, tilt_deg=20, depth_m=0.9))
+    cv2.imwrite(str(folder / "board.png"), photograph(BOARD, tilt_deg=-25, depth_m=0.5))
+    save_camera(CAMERA, folder / "camera.yaml")
+    command = folder / "bin" / "tagmetry"
+    command.parent.mkdir()
+    command.write_text(
+        f"#!{sys.executable} -Werror\nfrom tagmetry.cli.main import main\nmain()\n", "utf-8"
+    )
+    command.chmod(0o755)
+    return folder
+
+
+def run(name: str, folder: Path, shelf: Path) -> str:
+    script = EXAMPLES / name
+    path = os.pathsep.join([str(shelf / "bin"), os.environ["PATH"]])
+    command = ["bash", "-e", str(script)]
+    if script.suffix == ".py":
+        command = [sys.executable, "-W", "error", str(script)]
+    ran = subprocess.run(
+        command,
+        cwd=folder,
+        check=False,
+        env={**os.environ, "PATH": path, "PYTHONPATH": str(SOURCE)},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    return ran.stdout + ran.stderr
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_example_runs(name: str, shelf: Path, tmp_path: Path) -> None:
+    if name.endswith(".sh") and shutil.which("bash") is None:
+        pytest.skip("shell examples need bash")
+    for package in NEEDS.get(name, []):
+        pytest.importorskip(package, reason=f"{name} needs {package}")
+    for file in ("photo.png", "board.png", "camera.yaml"):
+        shutil.copy(shelf / file, tmp_path)
+    if "av" in NEEDS.get(name, []):
+        write_video(tmp_path / "video.mp4", photograph(FLOOR, tilt_deg=10, depth_m=1.2))
+    if name in AFTER:
+        run(AFTER[name], tmp_path, shelf)
+    said = run(name, tmp_path, shelf)
+    assert SAID.get(name, "") in said
+    for written in WRITTEN.get(name, ()):
+        assert (tmp_path / written).stat().st_size > 0, written
