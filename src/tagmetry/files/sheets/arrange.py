@@ -133,7 +133,7 @@ def _too_large(tile: Tile, grids: Sequence[_Grid]) -> str:
         for grid in grids
     )
     largest_m = max(tile.largest_size_m(grid.room.width_m, grid.room.height_m) for grid in grids)
-    shown = f"{int(largest_m * 1e4) / 10:g} mm"
+    shown = f"{int(largest_m * 1e4 + 1e-6) / 10:g} mm"
     return (
         f"{tile.size_name} {format_mm(tile.size_m)} needs {format_mm(tile.width_m)} x "
         f"{format_mm(tile.height_m)} with quiet zone and label, the page leaves {rooms}; "
