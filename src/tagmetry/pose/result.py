@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform, UncertainTransform
 
 
@@ -50,6 +51,11 @@ class MarkerPose:
     @property
     def best(self) -> PoseHypothesis:
         """The most probable hypothesis."""
+        if not self.hypotheses:
+            raise InputError(
+                f"{self.family} id {self.id} has no pose: its corners are not those of a marker "
+                "seen from the front; check `hypotheses` before asking for the best"
+            )
         return self.hypotheses[0]
 
     @property

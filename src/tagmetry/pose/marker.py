@@ -1,0 +1,171 @@
+"""The pose of single markers: both solutions, refined, weighed against each other.
+
+A flat marker that leans towards the viewer looks almost as one that leans away. Both minima are
+kept, each with its covariance, and the corners say how probable each is:
+P_i ~ exp(-chi2_i / 2). With tilt a, side L px, focal length f px and corner noise s px the wrong one
+wins with probability Q(sin(a) L^2 / (2 f s)); better corners make flips rare by themselves.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from tagmetry.camera import Camera
+from tagmetry.detect import Detection
+from tagmetry.errors import InputError
+from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import BoolArray
+from tagmetry.markers import marker_corners_m
+from tagmetry.pose.ippe import ippe
+from tagmetry.pose.refine import Poses, Sightings, covariances, refine, residuals_px
+from tagmetry.pose.result import MarkerPose, PoseHypothesis
+
+_SAME_ROTATION_RAD = 1e-4  # two refinements that end this close found one minimum
+
+
+def estimate_pose(detection: Detection, camera: Camera, size_m: float) -> MarkerPose:
+    """Return the pose of one marker.
+
+    Args:
+        detection: The marker's corners in an image of this camera.
+        camera: Intrinsics of that image.
+        size_m: Side of the marker's black square.
+
+    Returns:
+        One or two hypotheses, the likelier first; none where the corners cannot be a marker's (not
+        convex, counter-clockwise, outside what the lens shows).
+
+    Raises:
+        InputError: The size is not positive.
+    """
+    return estimate_poses([detection], camera, [size_m])[0]
+
+
+def estimate_poses(
+    detections: Sequence[Detection], camera: Camera, sizes_m: Sequence[float]
+) -> tuple[MarkerPose, ...]:
+    """Return the poses of several markers, each by itself; see `estimate_pose`."""
+    if len(detections) != len(sizes_m):
+        raise InputError(f"expected {len(detections)} sizes, got {len(sizes_m)}")
+    for size_m in sizes_m:
+        check_size(size_m)
+    if not detections:
+        return ()
+    corners = np.stack([detection.corners_px for detection in detections])
+    noise = np.stack([detection.corners_cov_px2 for detection in detections])
+    hypotheses = solve(corners, noise, np.asarray(sizes_m, dtype=np.float64), camera)
+    return tuple(
+        MarkerPose(detection.family, detection.id, float(size_m), found)
+        for detection, size_m, found in zip(detections, sizes_m, hypotheses, strict=True)
+    )
+
+
+def check_size(size_m: float) -> None:
+    """Raise InputError unless the size is a positive number."""
+    if not (np.isfinite(size_m) and size_m > 0):
+        raise InputError(f"a marker's size must be a positive number of metres, got {size_m}")
+
+
+def solve(
+    corners_px: Array, covariances_px2: Array, sizes_m: Array, camera: Camera
+) -> list[tuple[PoseHypothesis, ...]]:
+    """Return the hypotheses of n markers, each marker's in falling probability.
+
+    Args:
+        corners_px: Shape (n, 4, 2).
+        covariances_px2: Shape (n, 8, 8).
+        sizes_m: Shape (n,).
+        camera: Intrinsics.
+    """
+    seen = Sightings(marker_corners_m(sizes_m), corners_px, whitening(covariances_px2))
+    rays = camera.unproject(corners_px)
+    possible = _is_marker(corners_px) & np.isfinite(rays).all(axis=(1, 2))
+    possible &= np.isfinite(seen.whitening).all(axis=(1, 2))
+    hypotheses: list[tuple[PoseHypothesis, ...]] = [()] * len(sizes_m)
+    if possible.any():
+        seen = Sightings(seen.p_body[possible], corners_px[possible], seen.whitening[possible])
+        starts = ippe(rays[possible], seen.p_body)
+        for n, found in zip(np.flatnonzero(possible), _minima(*starts, seen, camera), strict=True):
+            hypotheses[n] = ranked(found)
+    return hypotheses
+
+
+def ranked(found: Sequence[PoseHypothesis]) -> tuple[PoseHypothesis, ...]:
+    """Return distinct hypotheses with their probabilities, the likelier first."""
+    distinct: list[PoseHypothesis] = []
+    for hypothesis in sorted(found, key=lambda h: h.chi2):
+        if not any(_is_same(hypothesis, other) for other in distinct):
+            distinct.append(hypothesis)
+    if not distinct:
+        return ()
+    weights = np.exp([(distinct[0].chi2 - h.chi2) / 2 for h in distinct])
+    shares = weights / weights.sum()
+    return tuple(
+        replace(h, probability=float(share)) for h, share in zip(distinct, shares, strict=True)
+    )
+
+
+def hypotheses_of(
+    poses: Poses, chi2: Array, seen: Sightings, camera: Camera
+) -> list[PoseHypothesis | None]:
+    """Return one hypothesis per pose, None where it is no pose; probabilities are still 1."""
+    covariance = covariances(poses, seen, camera)
+    squared = (residuals_px(poses, seen, camera) ** 2).sum(axis=-1)
+    rms_px = np.sqrt(squared.mean(axis=-1))
+    usable = np.isfinite(chi2) & np.isfinite(covariance).all(axis=(1, 2))
+    return [
+        PoseHypothesis(
+            poses.transform(n), covariance[n], float(rms_px[n]), float(chi2[n]), probability=1.0
+        )
+        if usable[n]
+        else None
+        for n in range(len(chi2))
+    ]
+
+
+def whitening(covariances_px2: Array) -> Array:
+    """Return W with W C W^T = I for each covariance (n, m, m); NaN for one that is not positive."""
+    identity = np.eye(covariances_px2.shape[-1])
+    usable = np.isfinite(covariances_px2).all(axis=(1, 2))
+    safe = np.where(usable[:, None, None], covariances_px2, identity)
+    usable &= np.linalg.eigvalsh(safe)[:, 0] > 0
+    safe = np.where(usable[:, None, None], safe, identity)
+    W = np.linalg.solve(np.linalg.cholesky(safe), np.broadcast_to(identity, safe.shape))
+    return np.where(usable[:, None, None], W, np.nan)
+
+
+def _minima(
+    start_R: Array, start_t: Array, seen: Sightings, camera: Camera
+) -> list[list[PoseHypothesis]]:
+    """Refine both starts of every marker; a start that led nowhere is left out."""
+    found: list[list[PoseHypothesis]] = [[] for _ in seen.pixels]
+    for branch in (0, 1):
+        start = Poses(start_R[:, branch], start_t[:, branch])
+        poses, chi2 = refine(start, seen, camera)
+        for n, hypothesis in enumerate(hypotheses_of(poses, chi2, seen, camera)):
+            if hypothesis is not None and _faces_camera(hypothesis):
+                found[n].append(hypothesis)
+    return found
+
+
+def _is_marker(corners_px: Array) -> BoolArray:
+    """Say which quadrilaterals (n, 4, 2) are convex, clockwise and not needle-thin."""
+    sides = np.roll(corners_px, -1, axis=1) - corners_px
+    lengths = np.linalg.norm(sides, axis=2)
+    following = np.roll(sides, -1, axis=1)
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        turns = sides[..., 0] * following[..., 1] - sides[..., 1] * following[..., 0]
+        sines = turns / (lengths * np.roll(lengths, -1, axis=1))
+        return np.asarray((sines > 1e-6).all(axis=1) & np.isfinite(corners_px).all(axis=(1, 2)))
+
+
+def _faces_camera(hypothesis: PoseHypothesis) -> bool:
+    """Say whether the printed face is turned to the camera."""
+    pose = hypothesis.T_camera_marker
+    return bool(pose.rotation.as_matrix()[:, 2] @ pose.translation < 0)
+
+
+def _is_same(one: PoseHypothesis, other: PoseHypothesis) -> bool:
+    turn = one.T_camera_marker.rotation * other.T_camera_marker.rotation.inv()
+    return bool(turn.magnitude() < _SAME_ROTATION_RAD)
