@@ -5,7 +5,6 @@ axes (x red, y green, z blue) and, if wanted, the cube of which it is the floor.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,27 +15,13 @@ from tagmetry.geometry.arrays import AnyPixels, Array, GreyPixels
 from tagmetry.pose.result import MarkerPose
 from tagmetry.record.display import displayable
 from tagmetry.record.drawing import Pen, draw_dot, draw_path, draw_text
-from tagmetry.record.palette import ORANGE, PURPLE, SKY_BLUE, VERMILLION, WHITE, Color
+from tagmetry.record.ellipses import draw_ellipse_caption, draw_ellipses
+from tagmetry.record.palette import ORANGE, SKY_BLUE, VERMILLION, WHITE, Color
+from tagmetry.record.result import MarkerResult
+from tagmetry.record.scale import Scale
 from tagmetry.record.wires import axis_wires, cube_wires
 
-CIRCLE = np.linspace(0.0, 2.0 * np.pi, 33)[:-1]
-
-
-@dataclass(frozen=True)
-class _Scale:
-    """Widths and heights that suit a marker's size and the picture's."""
-
-    line_px: int
-    text_px: float
-
-    @classmethod
-    def of(cls, corners_px: Array, canvas: GreyPixels) -> "_Scale":
-        diagonal = float(np.hypot(*canvas.shape[:2]))
-        side = float(np.linalg.norm(np.roll(corners_px, -1, axis=0) - corners_px, axis=1).mean())
-        side = side if np.isfinite(side) else 0.0
-        line = max(1, round(min(side / 50, diagonal / 350)))
-        text = min(max(side * 0.2, 10.0, diagonal / 110), max(10.0, diagonal / 30))
-        return cls(line, text)
+FARTHEST_PX = 1e7  # corners beyond are left out with all that belongs to them
 
 
 def draw_overlay(
@@ -71,17 +56,19 @@ def draw_overlay(
     """
     canvas = displayable(pixels)
     _check(canvas, detections, poses, camera)
-    for rejection in rejections:
+    markers = _drawable(detections, poses)
+    for rejection in filter(_is_drawable, rejections):
         _draw_rejection(canvas, rejection)
-    for detection in detections:
-        pen = Pen(SKY_BLUE, _Scale.of(detection.corners_px, canvas).line_px)
-        draw_path(canvas, detection.corners_px, pen, closed=True)
+    for marker in markers:
+        _draw_outline(canvas, marker.detection)
     if camera is not None:
-        for detection, pose in zip(detections, poses or (), strict=False):
-            _draw_pose(canvas, detection, pose, camera, axes=axes, cube=cube)
+        for marker in markers:
+            _draw_pose(canvas, marker, camera, axes=axes, cube=cube)
     if ellipse_magnification is not None:
-        _draw_ellipses(canvas, detections, ellipse_magnification)
-    _draw_names(canvas, detections)
+        for marker in markers:
+            draw_ellipses(canvas, marker.detection, ellipse_magnification)
+        draw_ellipse_caption(canvas, ellipse_magnification)
+    _draw_names(canvas, [marker.detection for marker in markers])
     return canvas
 
 
@@ -97,64 +84,53 @@ def _check(
         camera.check_image(canvas.shape[1], canvas.shape[0])
 
 
+def _drawable(
+    detections: Sequence[Detection], poses: Sequence[MarkerPose | None] | None
+) -> list[MarkerResult]:
+    pairs = zip(detections, poses or [None] * len(detections), strict=True)
+    return [MarkerResult(seen, pose) for seen, pose in pairs if _is_drawable(seen)]
+
+
+def _is_drawable(seen: Detection | Rejection) -> bool:
+    return bool((np.abs(seen.corners_px) < FARTHEST_PX).all())
+
+
 def _draw_rejection(canvas: GreyPixels, rejection: Rejection) -> None:
-    scale = _Scale.of(rejection.corners_px, canvas)
+    scale = Scale.of(rejection.corners_px, canvas)
     draw_path(canvas, rejection.corners_px, Pen(VERMILLION, scale.line_px), closed=True)
-    _write_below(canvas, rejection.reason, rejection.corners_px, scale, VERMILLION)
+    _write_below(canvas, rejection.reason, rejection.corners_px, VERMILLION)
+
+
+def _draw_outline(canvas: GreyPixels, detection: Detection) -> None:
+    pen = Pen(SKY_BLUE, Scale.of(detection.corners_px, canvas).line_px)
+    draw_path(canvas, detection.corners_px, pen, closed=True)
 
 
 def _draw_pose(
-    canvas: GreyPixels,
-    detection: Detection,
-    pose: MarkerPose | None,
-    camera: Camera,
-    *,
-    axes: bool,
-    cube: bool,
+    canvas: GreyPixels, marker: MarkerResult, camera: Camera, *, axes: bool, cube: bool
 ) -> None:
-    if pose is None or not pose.hypotheses:
+    if marker.pose is None or not marker.pose.hypotheses:
         return
-    T_camera_marker, size_m = pose.best.T_camera_marker, pose.size_m
-    width = _Scale.of(detection.corners_px, canvas).line_px
+    T_camera_marker, size_m = marker.pose.best.T_camera_marker, marker.pose.size_m
+    width = Scale.of(marker.detection.corners_px, canvas).line_px
     for wire in cube_wires(T_camera_marker, camera, size_m) if cube else ():
         draw_path(canvas, wire.points_px, Pen(wire.color, width, rim_px=min(width - 1, 1)))
     for wire in axis_wires(T_camera_marker, camera, size_m) if axes else ():
         draw_path(canvas, wire.points_px, Pen(wire.color, 2 * width))
 
 
-def _draw_ellipses(
-    canvas: GreyPixels, detections: Sequence[Detection], magnification: float
-) -> None:
-    """Draw one standard deviation of every corner, enlarged, and say by how much."""
-    unit = np.stack([np.cos(CIRCLE), np.sin(CIRCLE)], axis=-1)
-    for detection in detections:
-        blocks = [detection.corners_cov_px2[i : i + 2, i : i + 2] for i in (0, 2, 4, 6)]
-        for corner, block in zip(detection.corners_px, blocks, strict=True):
-            if np.isfinite(block).all():
-                variances, directions = np.linalg.eigh(block)
-                radii = magnification * np.sqrt(np.clip(variances, 0.0, None))
-                outline = corner + (unit * radii) @ directions.T
-                draw_path(canvas, outline, Pen(PURPLE, 1), closed=True)
-    height, width = canvas.shape[:2]
-    size = max(10.0, float(np.hypot(height, width)) / 90)
-    where = np.array([0.0, height - 1.0])
-    draw_text(canvas, f"corner ellipses: 1 sigma x {magnification:g}", where, size, PURPLE)
-
-
 def _draw_names(canvas: GreyPixels, detections: Sequence[Detection]) -> None:
     """Mark each marker's own top left corner and write its id, with the family if there are two."""
+    for detection in detections:
+        width = Scale.of(detection.corners_px, canvas).line_px
+        draw_dot(canvas, detection.corners_px[0], 1.6 * width + 0.4, ORANGE)
     one_family = len({detection.family for detection in detections}) == 1
     for detection in detections:
-        scale = _Scale.of(detection.corners_px, canvas)
-        draw_dot(canvas, detection.corners_px[0], 1.6 * scale.line_px + 0.4, ORANGE)
-    for detection in detections:
-        scale = _Scale.of(detection.corners_px, canvas)
         name = str(detection.id) if one_family else f"{detection.family} {detection.id}"
-        _write_below(canvas, name, detection.corners_px, scale, WHITE)
+        _write_below(canvas, name, detection.corners_px, WHITE)
 
 
-def _write_below(
-    canvas: GreyPixels, text: str, corners_px: Array, scale: _Scale, color: Color
-) -> None:
+def _write_below(canvas: GreyPixels, text: str, corners_px: Array, color: Color) -> None:
+    scale = Scale.of(corners_px, canvas)
     below = np.array([corners_px[:, 0].mean(), corners_px[:, 1].max() + 2.0 * scale.line_px + 2.0])
     draw_text(canvas, text, below, scale.text_px, color)
