@@ -326,6 +326,12 @@ def test_refuses_opencv(tmp_path: Path, old: str, new: str, message: str) -> Non
         load_text(tmp_path, OPENCV.replace(old, new, 1))
 
 
+def test_refuses_rows_that_differ_in_length(tmp_path: Path) -> None:
+    text = OPENCV[: OPENCV.index("distortion")] + "distortion_coefficients: [[1, 2], [3]]"
+    with pytest.raises(InputError, match="distortion_coefficients: the rows differ in length"):
+        load_text(tmp_path, text)
+
+
 def test_refuses_a_file_that_is_no_camera(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"expected a camera file \(ROS .* the keys a, b"):
         load_text(tmp_path, "a: 1\nb: 2")

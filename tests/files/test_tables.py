@@ -174,6 +174,8 @@ def test_refuses_what_is_no_file(tmp_path: Path) -> None:
         load_yaml(tmp_path / "nothing.yaml")
     with pytest.raises(InputError, match="expected a file, this is a folder"):
         load_yaml(tmp_path)
+    with pytest.raises(InputError, match="cannot be read: File name too long"):
+        load_yaml(tmp_path / ("long" * 100))
 
 
 @pytest.mark.parametrize(
