@@ -40,10 +40,20 @@ def open_container(
         container = av.open(address, "r", options=limits | (options or {}), timeout=timeout_s)
     except (av.FFmpegError, OSError, ValueError) as error:
         raise InputError(f"cannot be opened: {reason(error)}") from error
-    if not container.streams.video:
+    trouble = _trouble(container)
+    if trouble:
         container.close()
-        raise InputError("has no pictures (no video stream)")
+        raise InputError(trouble)
     return container
+
+
+def _trouble(container: "InputContainer") -> str:
+    if not container.streams.video:
+        return "has no pictures (no video stream)"
+    codec: object = container.streams.video[0].codec_context  # PyAV's types forget the None
+    if codec is None:
+        return "its pictures are coded in a way that FFmpeg does not know, or the file is damaged"
+    return ""
 
 
 def require_av() -> None:

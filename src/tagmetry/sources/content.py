@@ -1,5 +1,6 @@
 """What a file holds, told from its first bytes and never from its name."""
 
+import codecs
 from typing import Literal
 
 PictureKind = Literal["PNG", "JPEG", "BMP", "TIFF", "WebP", "PNM"]
@@ -59,7 +60,7 @@ def is_text(head: bytes) -> bool:
     if any(byte < 32 and byte not in b"\t\n\r\f\x1b" for byte in head):
         return False
     try:
-        head[:-3].decode()  # the last character may be cut
+        codecs.getincrementaldecoder("utf-8")().decode(head)  # the last character may be cut
     except UnicodeDecodeError:
         return False
     return True
