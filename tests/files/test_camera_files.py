@@ -1,6 +1,7 @@
 """Camera files: what is written reads back, what others write is understood, the rest refused."""
 
 import contextlib
+import dataclasses
 from pathlib import Path
 
 import cv2
@@ -90,13 +91,17 @@ def test_file_reads_back(tmp_path: Path, form: CameraFormat) -> None:
 @pytest.mark.parametrize("lens", [FULL.lens, FisheyeLens(), BrownLens(tuple(range(14)))])
 def test_opencv_reads_our_file(tmp_path: Path, name: str, lens: Lens) -> None:
     camera = Camera(640, 480, (500.25, 1e-3), (320.1, 1e5), lens, name="é: x", provenance="a\nb")
+    covariance = np.eye(camera.parameter_count) / 3
+    camera = dataclasses.replace(camera, covariance=covariance)
     save_camera(camera, tmp_path / name, "opencv")
     storage = cv2.FileStorage(str(tmp_path / name), cv2.FILE_STORAGE_READ)
     np.testing.assert_array_equal(storage.getNode("camera_matrix").mat(), camera.matrix)
     found = storage.getNode("distortion_coefficients").mat()
     np.testing.assert_array_equal(found.ravel(), lens.coefficients)
     assert storage.getNode("image_width").real() == 640
-    assert storage.getNode("tagmetry").getNode("name").string() == "é: x"
+    section = storage.getNode("tagmetry")
+    assert section.getNode("name").string() == "é: x"
+    assert section.getNode("covariance").at(2).at(2).real() == 1 / 3
 
 
 @pytest.mark.parametrize("name", ["cam.yml", "cam.json"])
@@ -260,6 +265,7 @@ def test_ros_readers_find_their_fields(tmp_path: Path, lens: Lens, model: str, c
         ("739.08", "1e999", "line 7: the number 1e999 is too large"),
         ("739.08, 0,", "739.08, 0.5,", r"skew of 0\.5 px"),
         ("0, 0, 1]\ndis", "0, 0, 2]\ndis", r"expected a camera matrix \[\[fx, 0, cx\]"),
+        ("739.08, 0, 321.5, 0", "739.08, 0, 321.5, 1", r"expected a camera matrix \[\[fx"),
         ("739.08, ", "", r"camera_matrix: expected rows \* cols = 3 \* 3 numbers, found 8"),
         ("rows: 3\n  cols: 3", "rows: 1\n  cols: 9", "expected a 3x3 camera matrix, found 1x9"),
         ("plumb_bob", "omni", "'omni' is not known; there are plumb_bob, rational_polynomial, equ"),
@@ -276,7 +282,7 @@ def test_ros_readers_find_their_fields(tmp_path: Path, lens: Lens, model: str, c
         ("camera_name: 00314159", "tagmetry: {covariance: [[1]]}", r"shape \(9, 9\)"),
         ("camera_name: 00314159", "tagmetry: {covariance: [[-1]]}", "variances of at least 0"),
         ("camera_name: 00314159", "tagmetry: {covariance: [[1, 2], [3, 1]]}", "symmetric"),
-        ("camera_name: 00314159", "tagmetry: 7", "tagmetry: expected a valid dictionary"),
+        ("camera_name: 00314159", "tagmetry: 7", "tagmetry: expected keys with values, found 7"),
     ],
 )
 def test_refuses_ros(tmp_path: Path, old: str, new: str, message: str) -> None:

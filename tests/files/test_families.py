@@ -1,5 +1,6 @@
 """Marker families in the format of OpenCV's dictionaries."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -113,6 +114,13 @@ def test_correction_up_to_the_distance_is_accepted(tmp_path: Path) -> None:
     assert accepted.correction_bits == allowed
     with pytest.raises(InputError, match=f"which allows {allowed}"):
         load_text(tmp_path, text.replace(old, f"maxCorrectionBits: {allowed + 1}"))
+
+
+def test_refuses_to_write_what_cannot_be_read(tmp_path: Path) -> None:
+    eager = replace(family("4x4_50"), correction_bits=9)
+    with pytest.raises(InputError, match=r"a\.yml: maxCorrectionBits is 9"):
+        save_family(eager, tmp_path / "a.yml")
+    assert not list(tmp_path.iterdir())
 
 
 def test_border_of_two_cells_has_no_place_in_the_format(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from tagmetry.errors import InputError
 from tagmetry.files import load_json, load_table, load_yaml
+from tagmetry.files.checked import FileModel, checked
 from tagmetry.files.json_text import parse_json
 from tagmetry.files.text import LARGEST_BYTES
 from tagmetry.files.yaml_text import parse_yaml
@@ -90,6 +91,12 @@ def test_byte_order_mark_is_passed_over(tmp_path: Path) -> None:
 def test_content_tells_json_from_yaml(tmp_path: Path) -> None:
     assert load_table(write(tmp_path, ' {"a":\t1}')) == {"a": 1}
     assert load_table(write(tmp_path, "a: 1", "file.json")) == {"a": 1}
+
+
+def test_33_levels_are_too_deep() -> None:
+    for parse in (parse_yaml, parse_json):
+        with pytest.raises(InputError, match="nested deeper than 32 levels"):
+            parse("[" * 33 + "]" * 33)
 
 
 def test_32_levels_are_fine() -> None:
@@ -213,6 +220,25 @@ def test_unclosed_strings_are_refused_at_once(text: str) -> None:
 def test_brackets_in_strings_do_not_count() -> None:
     deep = "[" * 100 + '\\"' + "{" * 100
     assert parse_json(f'{{"a": "{deep}"}}') == {"a": deep.replace("\\", "")}
+
+
+class _Sizes(FileModel):
+    size_m: list[float]
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ({}, "size_m is missing"),
+        ({"size_m": [1.0, float("inf")]}, r"size_m\.1: expected a finite number, found inf"),
+        ({"size_m": ["1" * 100]}, r"size_m\.0: expected a valid number, found '1{39}…$"),
+        (7, "the file: expected keys with values, found 7"),
+    ],
+)
+def test_mistakes_in_a_table_are_one_line(table: object, message: str) -> None:
+    with pytest.raises(InputError, match=message) as caught:
+        checked(_Sizes, table)
+    assert "\n" not in str(caught.value)
 
 
 @given(st.text(max_size=200))

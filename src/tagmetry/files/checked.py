@@ -48,6 +48,8 @@ def _one_line(details: ErrorDetails) -> str:
     field = ".".join(str(part) for part in details["loc"]) or "the file"
     if details["type"] == "missing":
         return f"{field} is missing"
+    if details["type"] == "model_type":
+        return f"{field}: expected keys with values, found {shortened(repr(details['input']))}"
     message = details["msg"].removeprefix("Value error, ")
     if not message.startswith("Input should be "):
         return f"{field}: {message}"

@@ -26,11 +26,6 @@ def plain_value(word: str) -> bool | float | str | None:
     return finite_number(word) if _NUMBER.fullmatch(word) else word
 
 
-def is_text(word: str) -> bool:
-    """Say whether the word means itself."""
-    return word not in _WORDS and not _NUMBER.fullmatch(word)
-
-
 def finite_number(word: str) -> float:
     """Return an integer of up to 18 digits as it is, any other number as the nearest float."""
     if _INTEGER.fullmatch(word):

@@ -9,8 +9,7 @@ import sys
 
 import yaml
 
-from tagmetry.files.plain import is_text
-
+# Words that PyYAML leaves bare when they mean themselves; numbers by our rules begin otherwise.
 _SIMPLE = re.compile(r"[A-Za-z](?:[\w ./-]*[\w./-])?", re.ASCII)
 
 
@@ -39,7 +38,7 @@ def yaml_of(table: object, dumper: type[PlainDumper] = PlainDumper) -> str:
 
 
 def _represented_text(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
-    style = None if _SIMPLE.fullmatch(text) and is_text(text) else '"'
+    style = None if _SIMPLE.fullmatch(text) else '"'
     return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
 
 
