@@ -163,6 +163,17 @@ def test_a_page_says_what_it_shows() -> None:
     assert any(t.startswith("tag36h11, ids 7-9, 30, 40 mm, tagmetry ") for t in texts)
 
 
+@pytest.mark.parametrize(
+    ("size_mm", "label"),
+    [(40, "tag36h11, id 30, 40 mm"), (10, "tag36h11, id 30"), (5, "id 30"), (1, "30")],
+)
+def test_labels_get_shorter_before_they_get_illegible(size_mm: float, label: str) -> None:
+    (page,) = sheet_pages(TAG, [30], size_mm / 1000)
+    shown = next(shape for shape in page.shapes if isinstance(shape, Text))
+    assert shown.text == label
+    assert shown.size_m >= 0.0014 or label == "30"
+
+
 def test_auto_turns_the_page_when_only_that_fits() -> None:
     wide = board_page(GridBoard(5, 2, 0.04, 0.01))
     assert (wide.width_m, wide.height_m) == (0.297, 0.210)

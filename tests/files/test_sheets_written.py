@@ -24,7 +24,7 @@ from tagmetry.files.sheets import (
     sheet_pages,
     write_pages,
 )
-from tagmetry.files.sheets.page import Box, Cells, bar
+from tagmetry.files.sheets.page import Box, Cells, Text, bar
 from tagmetry.files.sheets.raster import page_as_pixels
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import AprilGrid, CharucoBoard, family
@@ -108,6 +108,26 @@ def test_pdf_equals_our_own_pixels_without_hairlines(dpi: float, inverted: bool)
         inside = cv2.erode((ours[rows] == grey).astype(np.uint8), np.ones((3, 3))) > 0
         assert inside.mean() > 0.1
         assert np.abs(theirs[rows][inside].astype(int) - grey).max() <= 1
+
+
+@pytest.mark.parametrize("anchor", ["start", "middle"])
+@pytest.mark.parametrize(
+    "text", ["tag36h11, id 7, 120 mm", "WWW @@ mmm %%", "4x4_50, ids 0-23, 30"]
+)
+@pytest.mark.parametrize("writer", ["pdf", "png"])
+def test_texts_stay_in_their_boxes(anchor: str, text: str, writer: str) -> None:
+    shape = Text(0.0508, 0.0127, 0.005, text, anchor)  # type: ignore[arg-type]
+    page = Page(0.1016, 0.0254, (shape,), "")
+    pixels = rendered([page], 300) if writer == "pdf" else page_as_pixels(page, 300 / 0.0254)
+    rows, columns = (
+        np.flatnonzero((pixels < 128).any(axis=axis)) / 300 * 0.0254 for axis in (1, 0)
+    )
+    assert shape.box.x_m <= columns[0]
+    assert columns[-1] <= shape.box.right_m
+    assert shape.box.y_m <= rows[0]
+    assert rows[-1] <= shape.box.bottom_m
+    middle_m = (columns[0] + columns[-1]) / 2 if anchor == "middle" else columns[0]
+    assert middle_m == pytest.approx(0.0508, abs=0.0008)
 
 
 def test_pdf_has_all_pages_and_always_the_same_bytes() -> None:
