@@ -13,7 +13,7 @@ from tagmetry.geometry.arrays import BoolArray
 Ink = Literal["black", "white"]
 
 _WIDE, _CAPITAL, _NARROW, _OTHER = 0.95, 0.73, 0.34, 0.57  # shares of the font's size, Helvetica
-_ASCENT, _DESCENT = 0.78, 0.22
+_ASCENT, _DESCENT = 0.78, 0.24
 
 
 @dataclass(frozen=True)
