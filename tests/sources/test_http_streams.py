@@ -3,7 +3,8 @@
 import itertools
 import threading
 import time
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from functools import partial
+from http.server import BaseHTTPRequestHandler, SimpleHTTPRequestHandler, ThreadingHTTPServer
 
 import cv2
 import numpy as np
@@ -13,7 +14,7 @@ from tagmetry.errors import InputError
 from tagmetry.sources import LiveSource, LiveTiming, open_source
 from tagmetry.sources.streams import stream_opener
 
-pytest.importorskip("av")
+av = pytest.importorskip("av")
 
 SIZE = (48, 64)
 
@@ -111,6 +112,38 @@ def test_a_stream_that_falls_silent_is_lost(serve):
     with LiveSource("stream", opener, on_state=on_state):
         assert lost.wait(10.0)
     assert "no answer in time" in seen[1].reason
+
+
+@pytest.fixture
+def play_list(tmp_path):
+    with av.open(str(tmp_path / "live.m3u8"), "w", format="hls") as container:
+        stream = container.add_stream("mpeg2video", rate=25)
+        stream.width, stream.height, stream.pix_fmt = SIZE[1], SIZE[0], "yuv420p"
+        for level in range(0, 200, 5):
+            pixels = np.full((*SIZE, 3), level, np.uint8)
+            container.mux(stream.encode(av.VideoFrame.from_ndarray(pixels, format="bgr24")))
+        container.mux(stream.encode(None))
+    return tmp_path / "live.m3u8"
+
+
+class Files(SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        """Keep quiet."""
+
+
+def test_an_hls_stream(serve, play_list):
+    address = serve(partial(Files, directory=play_list.parent))
+    with open_source(address.replace("video.mjpg", "live.m3u8")) as source:
+        assert next(iter(source)).pixels.shape == (*SIZE, 3)
+
+
+def test_a_play_list_cannot_make_us_read_our_own_files(serve, play_list):
+    content = play_list.read_text().replace("live0.ts", (play_list.parent / "live0.ts").as_uri())
+    play_list.write_text(content)
+    address = serve(partial(Files, directory=play_list.parent))
+    refusal = pytest.raises(InputError, match="cannot be opened")
+    with open_source(address.replace("video.mjpg", "live.m3u8")) as source, refusal:
+        next(iter(source))
 
 
 class Page(BaseHTTPRequestHandler):

@@ -187,6 +187,24 @@ def test_the_pauses_between_attempts_grow():
     assert 5 <= camera.opened <= 12  # 20, 40, then 80 ms each: without growing it were about 30
 
 
+def test_the_pauses_begin_anew_after_an_image():
+    timing = LiveTiming(first_pause_s=0.02, longest_pause_s=1.0)
+    gone = InputError("gone")
+    scripts = [paced([1]), gone, gone, gone, gone, paced([2]), [*paced([3]), FOREVER_S]]
+    running_s, done = [], threading.Event()
+
+    def on_state(state):
+        if state.kind == "running":
+            running_s.append(time.monotonic())
+        if len(running_s) == 3:
+            done.set()
+
+    with LiveSource("fake", FakeCamera(scripts), on_state=on_state, timing=timing):
+        assert done.wait(5.0)
+    assert running_s[1] - running_s[0] > 0.5  # 20 + 40 + 80 + 160 + 320 ms
+    assert running_s[2] - running_s[1] < 0.4  # 20 ms, and not 640
+
+
 def test_a_new_size_is_passed_on_or_refused_where_it_does_not_fit_the_intrinsics():
     script = [*paced([1], 0.04), 0.05, image(2, (8, 8)), FOREVER_S]
     with LiveSource("fake", FakeCamera([script])) as source:
@@ -211,6 +229,14 @@ def test_corrupt_images_are_left_out():
     script = [0.02, image(1), *CORRUPT, 0.05, image(2), FOREVER_S]
     with LiveSource("fake", FakeCamera([script])) as source:
         assert [i.sequence for i in itertools.islice(source, 2)] == [0, 1]
+
+
+def test_corrupt_images_with_good_ones_between_are_no_loss():
+    script = [image(1), *(CORRUPT * 7), image(2), *(CORRUPT * 7), 0.05, image(3), FOREVER_S]
+    camera = FakeCamera([script])
+    with LiveSource("fake", camera) as source:
+        assert next(i for i in source if i.sequence == 2).pixels[0, 0, 0] == 3
+    assert camera.opened == 1
 
 
 def test_nothing_but_corrupt_images_is_a_loss():

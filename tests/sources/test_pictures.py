@@ -175,6 +175,8 @@ def test_opencv_keeps_quiet_and_its_log_level_comes_back(capfd):
     with pytest.raises(InputError, match="BMP picture that is damaged"):
         decode_picture(encode(".bmp", smooth())[:-50])
     assert capfd.readouterr().err == ""
-    with quiet_opencv(), quiet_opencv():
+    with quiet_opencv():
+        with quiet_opencv():
+            assert cv2.utils.logging.getLogLevel() == 0
         assert cv2.utils.logging.getLogLevel() == 0
     assert cv2.utils.logging.getLogLevel() == before

@@ -1,5 +1,6 @@
 """Video files: every image with its own time, damage reported, nothing endless."""
 
+import itertools
 import os
 from contextlib import suppress
 from fractions import Fraction
@@ -11,6 +12,7 @@ import pytest
 from tagmetry.camera import Camera, Source
 from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.sources import VideoFile, open_source
+from tagmetry.sources.decoding import decoded
 
 av = pytest.importorskip("av")
 
@@ -146,6 +148,24 @@ def test_damage_in_the_middle_costs_only_what_it_hits(tmp_path):
     path.write_bytes(content)
     count = len(list(open_source(path)))
     assert 20 <= count <= 40
+
+
+def test_what_the_decoder_holds_is_not_lost_with_the_rest_of_the_file(tmp_path):
+    path = write_video(tmp_path / "a.mp4", levels=list(range(20, 220, 5)), pts=list(range(40)))
+    warnings = []
+    with av.open(str(path)) as container:
+        broken = BreaksOff(container, after=20)
+        assert len(list(decoded(broken, warnings.append, grey=True))) == 20
+    assert warnings == ["the rest cannot be read: bad sector"]
+
+
+class BreaksOff:
+    def __init__(self, container, after):
+        self.container, self.streams, self.after = container, container.streams, after
+
+    def demux(self, stream):
+        yield from itertools.islice(self.container.demux(stream), self.after)
+        raise av.InvalidDataError(5, "bad sector")
 
 
 @pytest.mark.parametrize("suffix", [".avi", ".mp4", ".mkv"])

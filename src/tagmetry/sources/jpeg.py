@@ -11,8 +11,7 @@ from tagmetry.errors import InputError
 _SOI, _EOI, _SOS = 0xD8, 0xD9, 0xDA
 _SIZES = frozenset(range(0xC0, 0xD0)) - {0xC4, 0xC8, 0xCC}  # SOFn, without DHT, JPG and DAC
 _ALONE = frozenset(range(0xD0, 0xD8)) | {0x01}  # RSTn and TEM carry no length
-_MARKER = re.compile(rb"\xff+([^\x00\xff])", re.DOTALL)
-_AFTER_SCAN = re.compile(rb"\xff+([^\x00\xff\xd0-\xd7])", re.DOTALL)  # not stuffing, not a restart
+_MARKER = re.compile(rb"\xff+([^\x00\xff])", re.DOTALL)  # within a scan, 0 stuffs a plain 255
 
 
 def jpeg_size(content: bytes) -> tuple[int, int]:
@@ -33,10 +32,9 @@ def check_jpeg_whole(content: bytes) -> None:
 
 def _segments(content: bytes) -> Iterator[tuple[int, bytes]]:
     """Give (marker, body) up to the end of the image; what follows a thumbnail is not mistaken."""
-    position, pattern = 2, _MARKER
-    while found := pattern.search(content, position):
-        marker = found[1][0]
-        position, pattern = found.end(), _MARKER
+    position = 2
+    while found := _MARKER.search(content, position):
+        marker, position = found[1][0], found.end()
         if marker in _ALONE or marker == _SOI:
             continue
         length = int.from_bytes(content[position : position + 2], "big")
@@ -44,4 +42,3 @@ def _segments(content: bytes) -> Iterator[tuple[int, bytes]]:
         if marker == _EOI:
             return
         position += max(length, 2)
-        pattern = _AFTER_SCAN if marker == _SOS else _MARKER
