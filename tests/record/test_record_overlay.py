@@ -127,6 +127,17 @@ def test_ellipses_are_as_large_as_stated() -> None:
     assert has(caption, PURPLE)
 
 
+def test_ellipses_lie_along_the_uncertain_direction() -> None:
+    along, across = np.array([0.8, 0.6]), np.array([-0.6, 0.8])
+    block = 0.1**2 * np.outer(along, along) + 0.01**2 * np.outer(across, across)
+    seen = Detection("f", 1, SEEN.corners_px, np.kron(np.eye(4), block), 0, 1.0)
+    canvas = draw_overlay(GREY, [seen], ellipse_magnification=300.0)
+    x, y = np.rint(SEEN.corners_px[1] + 30 * along).astype(int)
+    assert is_like(canvas[y, x], PURPLE)
+    x, y = np.rint(SEEN.corners_px[1] + 30 * along * [1, -1]).astype(int)
+    assert color_at(canvas, x, y) == (128, 128, 128)
+
+
 def test_rejected_ones_have_another_color_and_a_reason() -> None:
     corners = np.array([[100.0, 100], [200, 100], [200, 200], [100, 200]])
     silent = draw_overlay(GREY, [], rejections=[Rejection(corners, "")])

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from record_strategies import assert_same, results
 
 from tagmetry.errors import InputError, MissingExtraError
+from tagmetry.geometry import RigidTransform
 from tagmetry.record import open_writer, read_results
 from tagmetry.record.parquet import BATCH_IMAGES
 from tagmetry.record.table import COLUMNS
@@ -99,6 +100,14 @@ def test_csv_leaves_cells_empty_where_nothing_is_known(tmp_path, make_result, ma
     assert third["confidence"] == ""
 
 
+def test_csv_of_a_covariance_that_rounding_made_negative(tmp_path, make_result) -> None:
+    image = make_result()
+    best = replace(image.markers[0].pose.best, covariance=-1e-30 * np.eye(6))
+    pose = replace(image.markers[0].pose, hypotheses=(best,))
+    write(tmp_path / "out.csv", replace(image, markers=(replace(image.markers[0], pose=pose),)))
+    assert float(read_csv(tmp_path / "out.csv")[0]["sd_x_m"]) == 0.0
+
+
 def test_csv_quotes_a_hostile_name(tmp_path, make_result) -> None:
     path = tmp_path / "out.csv"
     name = 'a,"b"\n\udce9ö.png'
@@ -131,9 +140,12 @@ def test_tum_of_the_chosen_marker(tmp_path, make_result) -> None:
 
 def test_tum_of_a_marker_seen_twice_takes_the_first(tmp_path, make_result) -> None:
     path = tmp_path / "out.tum"
-    twice = (("tag36h11", 7), ("tag36h11", 7))
-    write(path, make_result(1, twice))
-    assert np.loadtxt(path).shape == (8,)
+    image = make_result(1, (("tag36h11", 7), ("tag36h11", 7)))
+    farther = RigidTransform.from_translation([0.0, 0.0, 9.0])
+    second = replace(image.markers[1].pose.best, T_camera_marker=farther)
+    pose = replace(image.markers[1].pose, hypotheses=(second,))
+    write(path, replace(image, markers=(image.markers[0], replace(image.markers[1], pose=pose))))
+    np.testing.assert_allclose(np.loadtxt(path)[1:4], [0.1, -0.2, 1.5])
 
 
 def test_tum_counts_images_without_a_time(tmp_path, make_result) -> None:
