@@ -127,8 +127,9 @@ def test_ellipses_are_as_large_as_stated() -> None:
     assert has(caption, PURPLE)
 
 
-def test_ellipses_lie_along_the_uncertain_direction() -> None:
-    along, across = np.array([0.8, 0.6]), np.array([-0.6, 0.8])
+@pytest.mark.parametrize("along", [(0.8, 0.6), (0.8, -0.6), (0.6, 0.8), (-0.6, 0.8)])
+def test_ellipses_lie_along_the_uncertain_direction(along) -> None:
+    along, across = np.array(along), np.array([-along[1], along[0]])
     block = 0.1**2 * np.outer(along, along) + 0.01**2 * np.outer(across, across)
     seen = Detection("f", 1, SEEN.corners_px, np.kron(np.eye(4), block), 0, 1.0)
     canvas = draw_overlay(GREY, [seen], ellipse_magnification=300.0)
