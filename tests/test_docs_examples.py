@@ -55,10 +55,10 @@ SAID = {
     "detect.py": "tag36h11 7 ",
     "doctor.sh": "tag36h11",
     "floor_positions.py": "robot 1: +0.20",
-    "pose.py": "tag36h11 8: ",
+    "pose.py": "tag36h11 8: +0.2000 -0.0000 +0.900",
     "read_results.py": "photo.png 7 ",
-    "robot_position.py": "camera at",
-    "wall_body.py": "seen by 2",
+    "robot_position.py": "camera at [ 4.15",
+    "wall_body.py": "from 2 markers",
 }
 AFTER = {"read_results.py": "detect.sh", "floor_positions.py": "detect_video.sh"}
 NEEDS = {

@@ -7,8 +7,10 @@ detector = tagmetry.Detector(families=["tag36h11"])
 
 with tagmetry.open_source("board.png") as source:
     for image in source:
-        detections = detector.detect(image.pixels)
+        detections = detector.detect(image.pixels, camera)
         pose = tagmetry.estimate_body_pose(detections, board.body(), camera)
-        print(len(pose.used), "markers, board at", pose.best.T_camera_marker.translation, "m")
-        print("± ", 1000 * pose.covariance.diagonal()[:3] ** 0.5, "mm")
+        position_m = pose.best.T_camera_marker.translation
+        deviation_mm = 1000 * pose.covariance.diagonal()[:3] ** 0.5
+        print(len(pose.used), "markers, board at", position_m.round(4), "m")
+        print("±", deviation_mm.round(3), "mm")
         print("corners that disagree:", pose.outliers)

@@ -11,10 +11,10 @@ detector = tagmetry.Detector(families=["tag36h11"])
 
 with tagmetry.open_source("photo.png") as source:
     for image in source:
-        for seen in detector.detect(image.pixels):
+        for seen in detector.detect(image.pixels, camera):
             if seen.id != 7:
                 continue
             T_camera_marker = tagmetry.estimate_pose(seen, camera, size_m=0.12).best.uncertain
             place = UncertainTransform.exact(T_world_marker) @ T_camera_marker.inverse()
-            print("camera at", place.T_a_b.translation, "m")
-            print("        ±", place.covariance.diagonal()[:3] ** 0.5, "m")
+            print("camera at", place.T_a_b.translation.round(3), "m")
+            print("        ±", (place.covariance.diagonal()[:3] ** 0.5).round(4), "m")

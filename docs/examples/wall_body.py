@@ -14,5 +14,6 @@ detector = tagmetry.Detector(families=["tag36h11"])
 
 with tagmetry.open_source("photo.png") as source:
     for image in source:
-        pose = tagmetry.estimate_body_pose(detector.detect(image.pixels), wall, camera)
-        print("wall at", pose.best.T_camera_marker.translation, "m, seen by", len(pose.used))
+        pose = tagmetry.estimate_body_pose(detector.detect(image.pixels, camera), wall, camera)
+        position_m = pose.best.T_camera_marker.translation
+        print("wall at", position_m.round(3), "m, from", len(pose.used), "markers")
