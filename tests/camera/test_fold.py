@@ -6,7 +6,8 @@ from example_cameras import ALL_14, CAMERAS, camera_with
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tagmetry.camera import BrownLens, Camera, FisheyeLens, distortion_reach
+from tagmetry.camera import BrownLens, Camera, FisheyeLens, brown, distortion_reach
+from tagmetry.camera.fold import least_positive_root
 
 SEED_003 = (-0.11785701583978955, 1.5199508775591315, -0.016984594698011175, -0.0015, -5.275)
 GOOD = (-0.28, 0.09, 0.0004, -0.0002, -0.01)
@@ -107,3 +108,52 @@ def test_every_pixel_with_a_ray_is_where_that_ray_projects(kind: str) -> None:
 
 def test_all_coefficients_together_reach_over_the_image() -> None:
     assert distortion_reach(camera_with(BrownLens(ALL_14))).is_monotonic
+
+
+def test_a_ray_from_the_folded_side_is_not_given() -> None:
+    """Decentring folds before the radius does: the one solution there is mirrored."""
+    lens = BrownLens((0.78, -0.36, 0.1, 0.05, -0.06))
+    beyond = brown.distort(np.array([0.54936176, -0.96749082]), np.pad(lens.coefficients, (0, 9)))
+    assert np.isnan(lens.straighten(beyond)).all()
+
+
+def test_a_step_from_a_singular_point_is_quiet() -> None:
+    lens = BrownLens((0.0, 0.0, 0.0, -1 / 3))  # x' = x - x^2 is level at x = 1/2 and at most 1/4
+    assert np.isnan(lens.straighten(np.array([0.5, 0.0]))).all()
+
+
+@pytest.mark.parametrize("bent", [0.9, 30.0, 1e6, 1e12])
+def test_a_pole_of_the_rational_gain_is_never_reached(bent: float) -> None:
+    lens = BrownLens((0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0))  # r / (1 - r^2)
+    ray = lens.straighten(np.array([bent, 0.0]))
+    if bent < 100:
+        radius = (np.hypot(1, 2 * bent) - 1) / (2 * bent)
+        assert ray[0] / ray[2] == pytest.approx(radius)
+    assert not np.isinf(ray).any()
+
+
+@pytest.mark.parametrize(
+    ("rising", "expected"),
+    [
+        ([1.0], np.inf),
+        ([1.0, 0.5], np.inf),
+        ([1.0, -0.5], 2.0),
+        ([1.0, 0.0, 1.0], np.inf),
+        ([1.0, -1.5, 0.5], 1.0),
+        ([1.0, -1.0, 1e-200], 1.0),
+        ([1.0, -1e-13], np.inf),
+        ([1.0, -1e-320], np.inf),
+    ],
+)
+def test_the_least_positive_root(rising: list[float], expected: float) -> None:
+    assert least_positive_root(np.array(rising)) == pytest.approx(expected)
+
+
+def test_the_share_counts_up_to_the_far_edge() -> None:
+    lens = BrownLens((-0.5, 0.0, 0.0, 0.0))
+    edge_px = 100 * np.sqrt(2 / 3) * (1 - 1 / 3)
+    wide = Camera(401, 1, (100.0, 100.0), (0.0, 0.0), lens)
+    high = Camera(1, 401, (100.0, 100.0), (0.0, 0.0), lens)
+    for camera in (wide, high):
+        covered = distortion_reach(camera, 801).covered_share
+        assert covered == pytest.approx((edge_px + 0.5) / 401, abs=0.002)

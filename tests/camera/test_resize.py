@@ -156,12 +156,14 @@ def test_four_quarters_change_nothing(lens: str) -> None:
 
 
 def test_a_lens_with_an_untilted_sensor_turns_all_the_same() -> None:
-    camera = camera_with(
-        BrownLens((*ALL_14[:12], 0.0, 0.0)), covariance=np.diag(np.arange(1.0, 19))
-    )
+    """p1' = p2, tx' = -ty, ty' = tx: their covariances go along."""
+    covariance = np.diag(np.arange(1.0, 19))
+    covariance[16:, 7] = covariance[7, 16:] = 0.2, 0.3  # tilts with p2
+    camera = camera_with(BrownLens((*ALL_14[:12], 0.0, 0.0)), covariance)
     turned = rotated(camera, 1)
     assert len(turned.lens.coefficients) == 14
     np.testing.assert_allclose(np.diag(turned.covariance)[-2:], [18.0, 17.0])
+    np.testing.assert_allclose(np.asarray(turned.covariance)[-2:, 6], [-0.3, 0.2])
     np.testing.assert_allclose(
         turned.project(turned_into_the_new_camera("turned 1", points_ahead())),
         CHANGES["turned 1"][1](camera.project(points_ahead())),

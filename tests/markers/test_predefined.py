@@ -165,3 +165,7 @@ def test_the_chance_of_a_random_match_is_about_what_happens() -> None:
     distances = (16 - np.where(bits, 1.0, -1.0) @ ours.turned_codes.T) / 2
     matched = (distances.min(axis=1) <= 1).mean()
     assert matched == pytest.approx(ours.chance_of_random_match(1), rel=0.05)
+
+
+def test_a_family_says_its_name_and_size() -> None:
+    assert repr(family("tag25h9")) == "MarkerFamily('tag25h9', 35 ids)"
