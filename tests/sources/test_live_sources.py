@@ -95,14 +95,14 @@ def test_images_are_numbered_and_stamped_with_the_injected_clock():
 
 
 def test_a_slow_taker_gets_the_newest_and_sees_the_gap():
-    with LiveSource("fake", FakeCamera([paced(range(1, 250), 0.002)])) as source:
+    with LiveSource("fake", FakeCamera([paced(range(1, 250), 0.004)])) as source:
         images = iter(source)
         first = next(images)
-        time.sleep(0.1)
+        time.sleep(0.3)
         second = next(images)
         assert second.sequence - first.sequence > 5
         assert second.pixels[0, 0, 0] == (second.sequence + 1) % 256
-        assert time.monotonic() - second.time_s < 0.05
+        assert time.monotonic() - second.time_s < 0.2
 
 
 def test_repeats_are_not_counted_and_a_frozen_picture_is_reported():
@@ -184,7 +184,7 @@ def test_the_pauses_between_attempts_grow():
     camera = FakeCamera([[image(1)], InputError("gone")])
     with LiveSource("fake", camera, timing=TIMING):
         time.sleep(0.6)
-    assert 5 <= camera.opened <= 12  # 20, 40, then 80 ms each: without growing it were about 30
+    assert 3 <= camera.opened <= 12  # 20, 40, then 80 ms each: without growing it were about 30
 
 
 def test_the_pauses_begin_anew_after_an_image():
