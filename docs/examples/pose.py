@@ -10,4 +10,4 @@ with tagmetry.open_source("photo.png") as source:
             x_m, y_m, z_m = pose.best.T_camera_marker.translation
             deviation_mm = 1000 * pose.covariance.diagonal()[:3] ** 0.5
             print(f"{detection.family} {detection.id}: {x_m:+.4f} {y_m:+.4f} {z_m:+.4f} m")
-            print("  ±", deviation_mm.round(3), "mm; probability of the other pose", pose.ambiguity)
+            print("  ±", deviation_mm.round(3), "mm; flipped:", pose.ambiguity)
