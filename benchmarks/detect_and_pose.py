@@ -98,9 +98,8 @@ def show(rows: list[Row], earlier_ms: dict[str, float]) -> None:
     print(f"{'picture':26} {'found':>5} {'detect':>10} {'pose':>10}  before")
     for row in rows:
         before = f"{earlier_ms[row.picture]:7.1f} ms" if row.picture in earlier_ms else ""
-        print(
-            f"{row.picture:26} {row.found:5} {row.detect_ms:7.1f} ms {row.pose_ms:7.1f} ms  {before}"
-        )
+        times = f"{row.detect_ms:7.1f} ms {row.pose_ms:7.1f} ms"
+        print(f"{row.picture:26} {row.found:5} {times}  {before}".rstrip())
 
 
 if __name__ == "__main__":
