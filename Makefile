@@ -40,7 +40,7 @@ pages: $(VENV)/dev.stamp ## Make the pictures and the command reference of the d
 	$(BIN)/python docs/make_pictures.py
 	$(BIN)/python docs/make_pages.py
 
-bench: $(VENV)/dev.stamp ## Time detection and pose
+bench: $(VENV)/package.stamp ## Time detection and pose
 	$(BIN)/python benchmarks/detect_and_pose.py
 
 wheel: $(VENV)/dev.stamp ## Build the wheel into dist/
