@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-
 from scipy.linalg import block_diag
-from scipy.stats import chi2 as chi2_distribution
+from scipy.special import chdtri
 
 from tagmetry.camera import Camera
 from tagmetry.detect import Detection
@@ -211,10 +210,11 @@ def _result(name: str, seen: _Seen, settled: list[_Settled], camera: Camera) -> 
         return BodyPose(name, (), (), (), 1.0)
     chosen = settled[found.index(min((h for h in found if h), key=lambda h: h.chi2))]
     scale = _noise_scale(chosen, seen, camera)
+    agreeing = np.asarray(chosen.agrees.any(axis=1))
     return BodyPose(
         name,
         tuple(replace(h, covariance=h.covariance * scale**2) for h in hypotheses),
-        tuple(key for key, any_agrees in zip(seen.keys, chosen.agrees.any(axis=1)) if any_agrees),
+        tuple(key for key, any_agrees in zip(seen.keys, agreeing, strict=True) if any_agrees),
         tuple((seen.keys[m], int(corner)) for m, corner in np.argwhere(~chosen.agrees)),
         scale,
     )
@@ -223,7 +223,7 @@ def _result(name: str, seen: _Seen, settled: list[_Settled], camera: Camera) -> 
 def _hypothesis(
     candidate: _Settled, spread2: float, seen: _Seen, camera: Camera
 ) -> PoseHypothesis | None:
-    """Return the pose as a hypothesis; its chi2 counts every corner, far ones only up to the gate."""
+    """Return the pose as a hypothesis; its chi2 counts every corner, each up to the gate."""
     sightings = seen.sightings(_ignoring(~candidate.agrees))
     distances2 = np.minimum(seen.distances2(candidate.pose, camera) / spread2, _GATE)
     chi2 = np.array([distances2.sum()])
@@ -235,14 +235,14 @@ def _hypothesis(
 
 
 def _noise_scale(chosen: _Settled, seen: _Seen, camera: Camera) -> float:
-    """Return how much wider than stated the agreeing corners scatter; 1 while chance explains it."""
+    """Return how much wider than stated agreeing corners scatter; 1 while chance explains it."""
     freedom = 2 * int(chosen.agrees.sum()) - 6
     if freedom < 1:
         return 1.0
     sightings = seen.sightings(_ignoring(~chosen.agrees))
     error = residuals_px(chosen.pose, sightings, camera).reshape(-1)
     chi2 = float(((sightings.whitening[0] @ error) ** 2).sum())
-    if chi2 < chi2_distribution.ppf(0.99, freedom):
+    if chi2 < chdtri(freedom, 0.01):
         return 1.0
     return float(np.sqrt(chi2 / freedom))
 

@@ -54,7 +54,7 @@ def _rotations(center: Array, slope: Array) -> Array:
     ray = np.concatenate([center, np.ones_like(center[:, :1])], axis=1)
     R_view_center = _towards(ray / np.linalg.norm(ray, axis=1, keepdims=True))
     flat = R_view_center[:, :2, :2] - center[:, :, None] * R_view_center[:, 2:, :2]
-    A = np.linalg.solve(flat, slope)
+    A = np.asarray(np.linalg.solve(flat, slope), dtype=np.float64)
     upper = A / _largest_singular_value(A)[:, None, None]
     rest = np.eye(2) - np.swapaxes(upper, 1, 2) @ upper  # = b b^T
     b = np.sqrt(np.maximum(np.stack([rest[:, 0, 0], rest[:, 1, 1]], axis=1), 0.0))

@@ -2,8 +2,8 @@
 
 A flat marker that leans towards the viewer looks almost as one that leans away. Both minima are
 kept, each with its covariance, and the corners say how probable each is:
-P_i ~ exp(-chi2_i / 2). With tilt a, side L px, focal length f px and corner noise s px the wrong one
-wins with probability Q(sin(a) L^2 / (2 f s)); better corners make flips rare by themselves.
+P_i ~ exp(-chi2_i / 2). With tilt a, side L px, focal length f px and corner noise s px the wrong
+one wins with probability Q(sin(a) L^2 / (2 f s)); better corners make flips rare by themselves.
 """
 
 from collections.abc import Sequence
@@ -80,7 +80,8 @@ def solve(
     """
     seen = Sightings(marker_corners_m(sizes_m), corners_px, whitening(covariances_px2))
     rays = camera.unproject(corners_px)
-    possible = _is_marker(corners_px) & np.isfinite(rays).all(axis=(1, 2))
+    possible = _is_marker(corners_px)
+    possible &= np.isfinite(rays).all(axis=(1, 2))
     possible &= np.isfinite(seen.whitening).all(axis=(1, 2))
     hypotheses: list[tuple[PoseHypothesis, ...]] = [()] * len(sizes_m)
     if possible.any():
@@ -127,7 +128,7 @@ def hypotheses_of(
 def whitening(covariances_px2: Array) -> Array:
     """Return W with W C W^T = I for each covariance (n, m, m); NaN for one that is not positive."""
     identity = np.eye(covariances_px2.shape[-1])
-    usable = np.isfinite(covariances_px2).all(axis=(1, 2))
+    usable = np.asarray(np.isfinite(covariances_px2).all(axis=(1, 2)))
     safe = np.where(usable[:, None, None], covariances_px2, identity)
     usable &= np.linalg.eigvalsh(safe)[:, 0] > 0
     safe = np.where(usable[:, None, None], safe, identity)

@@ -1,0 +1,118 @@
+"""Which squares are markers, and which of several squares at one place is the marker."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tagmetry.detect.decode import Match, Reading, has_border, nearest
+from tagmetry.detect.detection import Detection, Rejection
+from tagmetry.geometry import Array
+from tagmetry.markers import MarkerFamily
+
+_LEAST_CONFIDENCE = 0.3
+_SAME_PLACE = 0.5  # centres closer than this share of a side, and sides alike, are one place
+_ALIKE = 1.6
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A square that reads as a marker.
+
+    Attributes:
+        corners_px: Clockwise from the marker's own top left, shape (4, 2).
+        match: The marker.
+        is_inverted: It is printed white on black.
+    """
+
+    corners_px: Array
+    match: Match
+    is_inverted: bool
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """Sorts better readings first; an outline inside a wide border reads as well as its own."""
+        sides = self.corners_px - np.roll(self.corners_px, 1, axis=0)
+        side_px = np.linalg.norm(sides, axis=1).mean()
+        return self.match.hamming, -self.match.confidence * float(side_px)
+
+
+@dataclass(frozen=True)
+class Rules:
+    """What passes for a marker.
+
+    Attributes:
+        forgive_bits: Wrong bits to forgive; each family's own number when None.
+        inverted: White on black is wanted as well.
+    """
+
+    forgive_bits: int | None
+    inverted: bool
+
+    def judge(
+        self, corners_px: Array, reading: Reading | None, families: Sequence[MarkerFamily]
+    ) -> Candidate | str:
+        """Return the marker that a square shows, or the reason why it shows none."""
+        if reading is None:
+            return "black and white cannot be told apart"
+        if not has_border(reading):
+            return f"only {reading.border_share:.0%} of its border reads black"
+        is_inverted = reading.contrast < 0
+        if is_inverted and not self.inverted:
+            return "white on black; look for inverted markers to accept it"
+        matches = [nearest(reading, one) for one in families]
+        match = min(matches, key=lambda m: (m.hamming - self._forgiven(m.family), m.hamming))
+        if match.hamming > self._forgiven(match.family):
+            return (
+                f"nearest code is {match.family.name} id {match.id} with {match.hamming} wrong "
+                f"bits, {self._forgiven(match.family)} are forgiven"
+            )
+        if match.confidence < _LEAST_CONFIDENCE:
+            return f"{match.family.name} id {match.id} is too unclear ({match.confidence:.2f})"
+        return Candidate(np.roll(corners_px, -match.quarters, axis=0), match, is_inverted)
+
+    def _forgiven(self, family: MarkerFamily) -> int:
+        return family.forgiven_bits if self.forgive_bits is None else self.forgive_bits
+
+
+def best_per_place(candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Return the best reading of each place, in an order that does not depend on chance."""
+    best_first = sorted(candidates, key=lambda c: c.rank)
+    kept = [best_first[i] for i in _first_per_place([c.corners_px for c in best_first])]
+    return sorted(kept, key=lambda c: (c.match.family.name, c.match.id, *c.corners_px.mean(axis=0)))
+
+
+def distinct_rejections(
+    rejections: Sequence[Rejection], detections: Sequence[Detection]
+) -> tuple[Rejection, ...]:
+    """Return one rejection per place, none where a marker was found."""
+    squares = [d.corners_px for d in detections] + [r.corners_px for r in rejections]
+    found = len(detections)
+    return tuple(rejections[i - found] for i in _first_per_place(squares) if i >= found)
+
+
+def with_duplicates_marked(detections: Sequence[Detection]) -> tuple[Detection, ...]:
+    """Flag markers whose family and id stand in the image more than once."""
+    keys = [(detection.family, detection.id) for detection in detections]
+    return tuple(
+        replace(detection, is_duplicate=True) if keys.count(key) > 1 else detection
+        for key, detection in zip(keys, detections, strict=True)
+    )
+
+
+def _first_per_place(squares_px: Sequence[Array]) -> list[int]:
+    """Return the indices of those squares (4, 2) that no earlier one stands in the place of."""
+    if not squares_px:
+        return []
+    corners = np.stack(squares_px)
+    centres = corners.mean(axis=1)
+    sides_px = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).mean(axis=1)
+    free = np.ones(len(corners), dtype=bool)
+    first = []
+    for i in range(len(corners)):
+        if free[i]:
+            first.append(i)
+            smaller, larger = np.minimum(sides_px, sides_px[i]), np.maximum(sides_px, sides_px[i])
+            near = np.linalg.norm(centres - centres[i], axis=1) < _SAME_PLACE * smaller
+            free &= ~(near & (larger < _ALIKE * smaller))
+    return first

@@ -1,0 +1,162 @@
+"""Which marker is it? Bits are read at cell centres against local black and white.
+
+Black is a plane fitted to the border's cells, white a plane fitted just outside the border; the
+threshold lies midway, so light that falls off across the marker does no harm.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tagmetry.geometry import Array, apply_homography, square_to_quad
+from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.markers import Layout, MarkerFamily
+
+_LEAST_CONTRAST = 8.0  # grey values between black and white
+_BORDER_ERRORS = 0.2  # share of border cells that may read white
+_OUTSIDE_CELLS = 0.35  # how far outside the border white is looked for
+_TAPS = np.array([[-0.17, -0.17], [0.17, -0.17], [-0.17, 0.17], [0.17, 0.17]])  # cells
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How one quadrilateral reads in one layout.
+
+    Attributes:
+        margins: Of each bit, (value - threshold) / half the contrast, shape (bits,); white is
+            positive.
+        border_share: Share of the border's cells that read black.
+        contrast: White minus black, grey values; negative where the marker is inverted.
+        border_margin: Mean clearness of the border's cells.
+    """
+
+    margins: Array
+    border_share: float
+    contrast: float
+    border_margin: float
+
+
+@dataclass(frozen=True)
+class Match:
+    """The nearest marker of a family.
+
+    Attributes:
+        family: The family.
+        id: The nearest marker's id.
+        quarters: By how many quarters clockwise it is turned against the quadrilateral.
+        hamming: How many bits differ.
+        confidence: Mean clearness of all cells, those read wrong counting against, 0 to 1.
+    """
+
+    family: MarkerFamily
+    id: int
+    quarters: int
+    hamming: int
+    confidence: float
+
+
+def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | None]:
+    """Read quadrilaterals as markers of a layout.
+
+    Args:
+        grey: 8-bit image.
+        corners_px: Shape (n, 4, 2), clockwise.
+        layout: Where border and bits are.
+
+    Returns:
+        One reading each; None where black and white cannot be told apart.
+    """
+    H = square_to_quad(corners_px)
+    black_at, white_at = border_centres(layout), _outside(layout)
+    black = _sampled(grey, H, black_at, layout)
+    white = _sampled(grey, H, white_at, layout)
+    bits = _sampled(grey, H, layout.bit_centres, layout)
+    if layout.white_border:
+        black, white, black_at, white_at = white, black, white_at, black_at
+    at = np.concatenate([black_at, layout.bit_centres])
+    dark, bright = _plane(black_at, black, at), _plane(white_at, white, at)
+    contrast = (bright - dark).mean(axis=1)
+    half = np.where(np.abs(contrast) < _LEAST_CONTRAST, np.nan, contrast / 2)
+    margins = (np.concatenate([black, bits], axis=1) - (dark + bright) / 2) / half[:, None]
+    count = len(black_at)
+    return [
+        None
+        if np.isnan(half[i])
+        else Reading(
+            margins[i, count:],
+            float((margins[i, :count] < 0).mean()),
+            float(contrast[i]),
+            float(-np.clip(margins[i, :count], -1, 1).mean()),
+        )
+        for i in range(len(corners_px))
+    ]
+
+
+def nearest(reading: Reading, family: MarkerFamily) -> Match:
+    """Return the marker of a family that differs in the fewest bits."""
+    signs = np.where(reading.margins > 0, 1.0, -1.0)
+    agreement = family.turned_codes @ signs
+    index = int(np.argmax(agreement))
+    bits = len(signs)
+    expected = family.turned_codes[index]
+    clear = np.clip(reading.margins * expected, -1, 1).mean()
+    share = bits / (bits + len(border_centres(family.layout)))
+    confidence = share * clear + (1 - share) * reading.border_margin
+    return Match(
+        family,
+        id=index % len(family),
+        quarters=index // len(family),
+        hamming=round((bits - agreement[index]) / 2),
+        confidence=float(np.clip(confidence, 0, 1)),
+    )
+
+
+def has_border(reading: Reading) -> bool:
+    """Say whether enough of the border's cells read black."""
+    return reading.border_share >= 1 - _BORDER_ERRORS
+
+
+def border_centres(layout: Layout) -> Array:
+    """Return the centres of the border's cells in units of the square's side, shape (n, 2)."""
+    side, border = layout.side_cells, layout.border_cells
+    inside = np.zeros((side, side), dtype=bool)
+    inside[border : side - border, border : side - border] = True
+    rows, columns = np.nonzero(~inside)
+    return (np.stack([columns, rows], axis=1) + 0.5) / side
+
+
+def _outside(layout: Layout) -> Array:
+    """Return places just outside the square, opposite the outermost border cells."""
+    side = layout.side_cells
+    along = (np.arange(side) + 0.5) / side
+    near, far = np.full(side, -_OUTSIDE_CELLS / side), np.full(side, 1 + _OUTSIDE_CELLS / side)
+    pairs = [(along, near), (along, far), (near, along), (far, along)]
+    return np.concatenate([np.stack(pair, axis=1) for pair in pairs])
+
+
+def _sampled(grey: GreyPixels, H: Array, at: Array, layout: Layout) -> Array:
+    """Return the mean of four taps around places of the unit square, shape (n, k)."""
+    places = (at[:, None] + _TAPS / layout.side_cells).reshape(-1, 2)
+    pixels = apply_homography(H, np.broadcast_to(places, (len(H), *places.shape)))
+    values = _bilinear(grey, pixels.reshape(-1, 2)).reshape(len(H), len(at), len(_TAPS))
+    return np.asarray(values.mean(axis=2))
+
+
+def _bilinear(grey: GreyPixels, pixels: Array) -> Array:
+    """Return grey values between pixels, shape (n,); the image's edge is repeated outside."""
+    height_px, width_px = grey.shape
+    x = np.clip(np.nan_to_num(pixels[:, 0]), 0, width_px - 1.001)
+    y = np.clip(np.nan_to_num(pixels[:, 1]), 0, height_px - 1.001)
+    column, row = x.astype(np.intp), y.astype(np.intp)
+    right, down = x - column, y - row
+    flat, first = grey.ravel(), row * width_px + column
+    above = flat[first] * (1 - right) + flat[first + 1] * right
+    below = flat[first + width_px] * (1 - right) + flat[first + width_px + 1] * right
+    return np.asarray(above * (1 - down) + below * down)
+
+
+def _plane(at: Array, values: Array, wanted: Array) -> Array:
+    """Fit planes to values (n, k) at places (k, 2) and return them at other places, (n, m)."""
+    design = np.column_stack([np.ones(len(at)), at - 0.5])
+    coefficients = values @ np.linalg.pinv(design).T
+    return np.asarray(coefficients @ np.column_stack([np.ones(len(wanted)), wanted - 0.5]).T)

@@ -1,0 +1,144 @@
+"""The detector: from an image to identified markers with sub-pixel corners.
+
+quads (squares in the image) -> decode (which marker) -> choose (one per place) -> refine (where
+exactly).
+"""
+
+from collections.abc import Iterable
+from functools import cached_property
+
+import numpy as np
+
+from tagmetry.camera import Camera
+from tagmetry.detect.choose import (
+    Candidate,
+    Rules,
+    best_per_place,
+    distinct_rejections,
+    with_duplicates_marked,
+)
+from tagmetry.detect.decode import read
+from tagmetry.detect.detection import Detection, Findings, Rejection
+from tagmetry.detect.grey import grey_8bit
+from tagmetry.detect.quads import quads
+from tagmetry.detect.refine import refine
+from tagmetry.errors import InputError
+from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import AnyPixels, GreyPixels
+from tagmetry.markers import Layout, MarkerFamily, family
+
+_BORDER_PX = 2.0
+
+
+class Detector:
+    """Finds markers of one or several families.
+
+    Args:
+        families: Names, or families of your own.
+        forgive_bits: Wrong bits to forgive, for all families; by default each family's own
+            `forgiven_bits`.
+        inverted: Look for markers printed white on black as well.
+        min_side_px: Sides of markers shorter than this are not looked for; by default 8, and more
+            in images of more than two megapixels.
+    """
+
+    def __init__(
+        self,
+        families: Iterable[str | MarkerFamily] = ("tag36h11",),
+        *,
+        forgive_bits: int | None = None,
+        inverted: bool = False,
+        min_side_px: float | None = None,
+    ) -> None:
+        self.families = tuple(family(f) if isinstance(f, str) else f for f in families)
+        if not self.families:
+            raise InputError("a detector needs at least one marker family")
+        if forgive_bits is not None and forgive_bits < 0:
+            raise InputError(f"forgive_bits must be 0 or more, got {forgive_bits}")
+        if min_side_px is not None and not (np.isfinite(min_side_px) and min_side_px >= 4):
+            raise InputError(f"min_side_px must be at least 4, got {min_side_px}")
+        self.rules = Rules(forgive_bits, inverted)
+        self.min_side_px = min_side_px
+
+    def detect(self, image: AnyPixels, camera: Camera | None = None) -> tuple[Detection, ...]:
+        """Return the markers in an image, ordered by family and id.
+
+        Args:
+            image: Grey or BGR, uint8 or uint16, shape (h, w) or (h, w, 3).
+            camera: Intrinsics of the image; sides are then followed along the curves that the lens
+                makes of them.
+        """
+        grey = self._checked(image, camera)
+        candidates, _ = self._judged(grey)
+        return _detections(grey, best_per_place(candidates), camera)
+
+    def explain(self, image: AnyPixels, camera: Camera | None = None) -> Findings:
+        """Return the markers, and the squares that were turned down, each with the reason."""
+        grey = self._checked(image, camera)
+        candidates, rejections = self._judged(grey)
+        detections = _detections(grey, best_per_place(candidates), camera)
+        return Findings(detections, distinct_rejections(rejections, detections))
+
+    @staticmethod
+    def _checked(image: AnyPixels, camera: Camera | None) -> GreyPixels:
+        grey = grey_8bit(image)
+        if camera is not None:
+            camera.check_image(grey.shape[1], grey.shape[0])
+        return grey
+
+    @cached_property
+    def _families_by_layout(self) -> dict[Layout, list[MarkerFamily]]:
+        grouped: dict[Layout, list[MarkerFamily]] = {}
+        for one in self.families:
+            grouped.setdefault(one.layout, []).append(one)
+        return grouped
+
+    def _judged(self, grey: GreyPixels) -> tuple[list[Candidate], list[Rejection]]:
+        """Read every square of the image in every layout."""
+        corners_px = quads(grey, self.min_side_px or _default_min_side_px(grey))
+        candidates: list[Candidate] = []
+        rejections: list[Rejection] = []
+        for layout, families in self._families_by_layout.items():
+            for corners, reading in zip(corners_px, read(grey, corners_px, layout), strict=True):
+                verdict = self.rules.judge(corners, reading, families)
+                if isinstance(verdict, Candidate):
+                    candidates.append(verdict)
+                else:
+                    rejections.append(Rejection(corners, verdict))
+        return candidates, rejections
+
+
+def _detections(
+    grey: GreyPixels, candidates: list[Candidate], camera: Camera | None
+) -> tuple[Detection, ...]:
+    if not candidates:
+        return ()
+    corners_px = np.stack([candidate.corners_px for candidate in candidates])
+    cells = np.array([candidate.match.family.layout.side_cells for candidate in candidates])
+    refined = refine(grey, corners_px, cells, camera)
+    detections = [
+        Detection(
+            candidate.match.family.name,
+            candidate.match.id,
+            refined.corners_px[i],
+            refined.covariances_px2[i],
+            candidate.match.hamming,
+            candidate.match.confidence,
+            candidate.is_inverted,
+            _touches_border(refined.corners_px[i], grey),
+        )
+        for i, candidate in enumerate(candidates)
+    ]
+    return with_duplicates_marked(detections)
+
+
+def _default_min_side_px(grey: GreyPixels) -> float:
+    return 8.0 * max(1.0, float(np.sqrt(grey.size / 2e6)))
+
+
+def _touches_border(corners_px: Array, grey: GreyPixels) -> bool:
+    height_px, width_px = grey.shape
+    low, high = corners_px.min(axis=0), corners_px.max(axis=0)
+    return bool(
+        low.min() < _BORDER_PX or (high > np.array([width_px, height_px]) - 1 - _BORDER_PX).any()
+    )

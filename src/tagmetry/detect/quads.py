@@ -1,0 +1,167 @@
+"""Dark or bright squares in a grey image: the candidates for markers.
+
+Each pass thresholds the image against its neighbourhood's mean, follows the outlines, and keeps
+those that are well described by four sides. Passes differ in the neighbourhood's size, in scale
+(small markers are looked for in an enlarged image) and in whether dark areas are thinned first
+(which parts the squares of a board whose corners touch).
+
+OpenCV's primitives do the work; `quads` is the seam where an engine of our own will follow.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from tagmetry.geometry.arrays import AnyPixels, Array, GreyPixels
+
+_DARKER_BY = 6  # grey values below the neighbourhood's mean
+_STRAIGHT = 0.04  # how far an outline may stray from its polygon, as a share of its length
+_LEAST_ANGLE_SINE = 0.2
+_MAX_OUTLINES = 3000  # per pass, the longest first: noise must not stall a frame
+
+
+@dataclass(frozen=True)
+class Pass:
+    """One way of looking for squares.
+
+    Attributes:
+        scale: The image is resized by this factor first.
+        window_share: Side of the neighbourhood as a share of the image's longer side.
+        thinned: Dark areas are thinned by a pixel before outlines are followed.
+    """
+
+    scale: float
+    window_px: int
+    thinned: bool = False
+
+
+def passes(width_px: int, height_px: int, min_side_px: float) -> tuple[Pass, ...]:
+    """Return the passes for an image in which markers have at least a certain side.
+
+    Neighbourhoods must be wider than a marker's border, and be small enough for uneven light.
+    """
+    longer_px = max(width_px, height_px)
+    wide_px = _odd(longer_px / 16)
+    plain = [Pass(1.0, size) for size in sorted({9, 21, wide_px})]
+    thinned = [Pass(1.0, 21, thinned=True)]
+    enlarged = [Pass(2.0, 15), Pass(2.0, 33)] if min_side_px < 24 else []
+    return (*plain, *thinned, *enlarged)
+
+
+def quads(grey: GreyPixels, min_side_px: float) -> Array:
+    """Return the outlines with four sides.
+
+    Args:
+        grey: 8-bit image.
+        min_side_px: Sides shorter than this are passed over.
+
+    Returns:
+        Shape (n, 4, 2), clockwise as seen, pixel centres at integers; repeated where several
+        passes saw the same square.
+    """
+    height_px, width_px = grey.shape
+    found = [
+        _quads_of_pass(grey, one, min_side_px) for one in passes(width_px, height_px, min_side_px)
+    ]
+    return np.concatenate(found) if found else np.zeros((0, 4, 2))
+
+
+def _quads_of_pass(grey: GreyPixels, one: Pass, min_side_px: float) -> Array:
+    scaled = grey
+    if one.scale != 1.0:
+        scaled = np.asarray(
+            cv2.resize(grey, None, fx=one.scale, fy=one.scale, interpolation=cv2.INTER_CUBIC),
+            dtype=np.uint8,
+        )
+    dark = cv2.adaptiveThreshold(
+        scaled, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, one.window_px, _DARKER_BY
+    )
+    outset_px = 0.5
+    if one.thinned:
+        dark = cv2.erode(dark, np.ones((3, 3), np.uint8))
+        outset_px = 1.5
+    outlines, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_NONE)
+    found = list(_four_sided(outlines, one.scale * min_side_px, outset_px))
+    corners = np.array(found).reshape(-1, 4, 2)
+    return (corners + 0.5) / one.scale - 0.5
+
+
+def _four_sided(
+    outlines: Sequence[AnyPixels], min_side_px: float, outset_px: float
+) -> Iterator[Array]:
+    long_enough = [outline for outline in outlines if len(outline) >= 3 * min_side_px]
+    long_enough.sort(key=len, reverse=True)
+    for outline in long_enough[:_MAX_OUTLINES]:
+        polygon = cv2.approxPolyDP(outline, _STRAIGHT * len(outline), closed=True)
+        if len(polygon) != 4 or not cv2.isContourConvex(polygon):
+            continue
+        starts = _indices(outline[:, 0], polygon[:, 0])
+        corners = _fitted(outline[:, 0].astype(np.float64), starts, outset_px)
+        if corners is not None and _is_wide(corners, min_side_px):
+            yield corners
+
+
+def _indices(outline: AnyPixels, polygon: AnyPixels) -> list[int]:
+    """Return where on the outline the polygon's corners are, in the outline's order."""
+    return sorted(int(np.flatnonzero((outline == corner).all(axis=1))[0]) for corner in polygon)
+
+
+def _fitted(outline: Array, starts: list[int], outset_px: float) -> Array | None:
+    """Return the corners of four lines fitted to the outline, clockwise, set outward.
+
+    The outline runs through the centres of dark pixels; the edge is half a pixel farther out for a
+    dark square, and farther in for a bright one (its outline is the dark rim around it).
+    """
+    pieces = np.split(np.roll(outline, -starts[0], axis=0), np.array(starts[1:]) - starts[0])
+    if min(len(piece) for piece in pieces) < 4:
+        return None
+    lines = np.array([_line(piece) for piece in pieces])
+    centre = np.mean([piece.mean(axis=0) for piece in pieces], axis=0)
+    # OpenCV runs around dark areas counter-clockwise and around holes clockwise, y down
+    is_hole = _signed_area(outline[starts]) > 0
+    outward = np.sign(np.einsum("ij,ij->i", lines[:, :2], lines[:, 2:] - centre))
+    points = lines[:, 2:] + (outset_px * (-1 if is_hole else 1) * outward)[:, None] * lines[:, :2]
+    corners = _crossings(lines[:, :2], points)
+    if corners is None:
+        return None
+    return corners if is_hole else corners[::-1]
+
+
+def _line(points: Array) -> Array:
+    """Return (normal, point) of the least-squares line, leaving out the ends near corners."""
+    trim = len(points) // 8
+    middle = points[trim : len(points) - trim]
+    centre = middle.mean(axis=0)
+    dx, dy = (middle - centre).T
+    angle = 0.5 * np.arctan2(2 * (dx @ dy), dx @ dx - dy @ dy)
+    return np.array([-np.sin(angle), np.cos(angle), *centre])
+
+
+def _crossings(normals: Array, points: Array) -> Array | None:
+    """Return where each line meets the one before it, shape (4, 2)."""
+    before = np.roll(normals, 1, axis=0)
+    matrices = np.stack([before, normals], axis=1)
+    offsets = (normals * points).sum(axis=1)
+    if (np.abs(np.linalg.det(matrices)) < _LEAST_ANGLE_SINE).any():
+        return None
+    right = np.stack([np.roll(offsets, 1), offsets], axis=1)
+    return np.asarray(np.linalg.solve(matrices, right[..., None])[..., 0])
+
+
+def _is_wide(corners: Array, min_side_px: float) -> bool:
+    sides = np.roll(corners, -1, axis=0) - corners
+    lengths = np.linalg.norm(sides, axis=1)
+    following = np.roll(sides, -1, axis=0)
+    turns = sides[:, 0] * following[:, 1] - sides[:, 1] * following[:, 0]
+    return bool(lengths.min() >= min_side_px and (turns > 0).all())
+
+
+def _signed_area(corners: Array) -> float:
+    x, y = corners.T
+    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2)
+
+
+def _odd(size: float) -> int:
+    return max(3, 2 * round(size / 2) + 1)
