@@ -10,6 +10,10 @@ import typer
 from typer.exceptions import TyperException
 
 from tagmetry import __version__
+from tagmetry.cli.camera import app as camera_app
+from tagmetry.cli.demo import demo
+from tagmetry.cli.detect import detect
+from tagmetry.cli.info import info
 from tagmetry.cli.print import app as print_app
 from tagmetry.errors import InputError
 
@@ -19,7 +23,11 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
+app.command()(detect)
 app.add_typer(print_app, name="print")
+app.add_typer(camera_app, name="camera")
+app.command()(info)
+app.command()(demo)
 
 
 def _print_version(wanted: bool) -> None:

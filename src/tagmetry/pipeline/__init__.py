@@ -1,0 +1,5 @@
+"""The running measurement: images in, results out."""
+
+from tagmetry.pipeline.measurement import Measurement, Sizes
+
+__all__ = ["Measurement", "Sizes"]

@@ -1,0 +1,72 @@
+"""One image in, one result out: detect, then measure where the size and the camera are known."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from tagmetry.camera import Camera, Image
+from tagmetry.detect import Detection, Detector, Findings
+from tagmetry.pose import MarkerPose, estimate_poses
+from tagmetry.pose.marker import check_size
+from tagmetry.record import ImageResult
+
+Sizes = float | Mapping[int, float]
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What is done with every image.
+
+    Attributes:
+        detector: Finds the markers.
+        camera: Intrinsics of the images; no poses without.
+        sizes_m: Side of the black squares: one for all, or by id; no poses without.
+    """
+
+    detector: Detector
+    camera: Camera | None = None
+    sizes_m: Sizes | None = None
+
+    def __post_init__(self) -> None:
+        by_id = self.sizes_m if isinstance(self.sizes_m, Mapping) else {0: self.sizes_m}
+        for size_m in by_id.values():
+            if size_m is not None:
+                check_size(size_m)
+
+    def measure(self, image: Image) -> ImageResult:
+        """Return the markers of an image, with their poses where they can be known."""
+        camera = self._camera_of(image)
+        return self.result(image, self.detector.detect(image.pixels, camera))
+
+    def explain(self, image: Image) -> Findings:
+        """Return the markers of an image, and the squares that were turned down."""
+        return self.detector.explain(image.pixels, self._camera_of(image))
+
+    def result(self, image: Image, detections: Sequence[Detection]) -> ImageResult:
+        """Return detections of an image with their poses."""
+        camera = self._camera_of(image)
+        if camera is None or self.sizes_m is None:
+            return ImageResult.from_image(image, detections)
+        return ImageResult.from_image(image, detections, self._poses(detections, camera))
+
+    def _camera_of(self, image: Image) -> Camera | None:
+        camera = self.camera if self.camera is not None else image.camera
+        if camera is not None:
+            camera.check_image(image.width_px, image.height_px)
+        return camera
+
+    def _poses(self, detections: Sequence[Detection], camera: Camera) -> list[MarkerPose | None]:
+        """Measure those markers whose size is known, in one go."""
+        sizes_m = [self._size_of(detection) for detection in detections]
+        known = [i for i, size_m in enumerate(sizes_m) if size_m is not None]
+        measured = estimate_poses(
+            [detections[i] for i in known], camera, [sizes_m[i] or 0.0 for i in known]
+        )
+        poses: list[MarkerPose | None] = [None] * len(detections)
+        for i, pose in zip(known, measured, strict=True):
+            poses[i] = pose
+        return poses
+
+    def _size_of(self, detection: Detection) -> float | None:
+        if isinstance(self.sizes_m, Mapping):
+            return self.sizes_m.get(detection.id)
+        return self.sizes_m
