@@ -40,8 +40,8 @@ pages: $(VENV)/dev.stamp ## Make the pictures and the command reference of the d
 	$(BIN)/python docs/make_pictures.py
 	$(BIN)/python docs/make_pages.py
 
-bench: $(VENV)/package.stamp ## Time detection and pose
-	$(BIN)/python benchmarks/detect_and_pose.py
+bench: $(VENV)/dev.stamp ## Time detection and pose against the peers
+	@$(BIN)/tagmetry bench
 
 wheel: $(VENV)/dev.stamp ## Build the wheel into dist/
 	rm -rf dist
@@ -54,7 +54,7 @@ HEADER := \# Pinned by `make requirements`. Change pyproject.toml, not this file
 
 requirements: $(VENV)/dev.stamp ## Pin the newest versions that pyproject.toml allows
 	$(COMPILE) pyproject.toml --all-extras $(GROUPS) --output-file $(VENV)/dev.txt
-	$(COMPILE) pyproject.toml --all-extras -c $(VENV)/dev.txt --output-file $(VENV)/run.txt
+	$(COMPILE) pyproject.toml --extra all -c $(VENV)/dev.txt --output-file $(VENV)/run.txt
 	$(COMPILE) --group build -c $(VENV)/dev.txt --output-file $(VENV)/build.txt
 	for name in dev run build; do \
 		{ echo '$(HEADER)'; cat $(VENV)/$$name.txt; } > requirements/$$name.txt; done

@@ -10,6 +10,7 @@ import typer
 from typer.exceptions import TyperException
 
 from tagmetry import __version__
+from tagmetry.cli.bench import bench
 from tagmetry.cli.camera import app as camera_app
 from tagmetry.cli.demo import demo
 from tagmetry.cli.detect import detect
@@ -28,6 +29,7 @@ app.add_typer(print_app, name="print")
 app.add_typer(camera_app, name="camera")
 app.command()(info)
 app.command()(demo)
+app.command()(bench)
 
 
 def _print_version(wanted: bool) -> None:

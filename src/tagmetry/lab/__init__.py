@@ -1,0 +1,1 @@
+"""Experiments and benchmarks: what the software does, in figures."""
