@@ -12,24 +12,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import block_diag
-from scipy.special import chdtri
 
 from tagmetry.camera import Camera
 from tagmetry.detect import Detection
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform
-from tagmetry.geometry.arrays import BoolArray
 from tagmetry.markers import MarkerBody
 from tagmetry.markers.bodies import MarkerKey
-from tagmetry.pose.marker import estimate_poses, hypotheses_of, ranked, whitening
-from tagmetry.pose.refine import Poses, Sightings, refine, residuals_px
+from tagmetry.pose.agreement import GATE, Agreement, BodyCorners, agreements, is_chance
+from tagmetry.pose.marker import SAME_ROTATION_RAD, estimate_poses, hypotheses_of, ranked
+from tagmetry.pose.refine import Poses, residuals_px
 from tagmetry.pose.result import PoseHypothesis
+from tagmetry.pose.whitening import whitening
 
-_GATE = 16.3  # chi2 with 2 degrees of freedom: one good corner in 3500 is turned away
-_MEDIAN = 1.386  # median of chi2 with 2 degrees of freedom
-_CAUCHY = 5.7  # Cauchy's tuning constant squared: 95 % efficient on clean noise
-_ROUNDS = 8
 _DISTINCT_RAD = np.deg2rad(3.0)
 
 
@@ -86,55 +81,25 @@ def estimate_body_pose(
     proposals = _proposals(own, body, camera)
     if not proposals:
         return BodyPose(body.name, (), (), (), 1.0)
-    seen = _seen(own, body)
-    settled = [_settled(start, seen, camera) for start in _best_two(proposals, seen, camera)]
-    return _result(body.name, seen, settled, camera)
-
-
-@dataclass(frozen=True)
-class _Seen:
-    """The corners of m markers of one body."""
-
-    keys: tuple[MarkerKey, ...]
-    p_body: Array  # (m, 4, 3)
-    pixels: Array  # (m, 4, 2)
-    covariances: Array  # (m, 8, 8)
-
-    def sightings(self, widening: Array) -> Sightings:
-        """Return all corners as one sighting, each one's noise widened by a factor (m, 4)."""
-        factors = np.repeat(widening, 2, axis=1)
-        W = whitening(factors[:, :, None] * self.covariances * factors[:, None, :])
-        return Sightings(
-            self.p_body.reshape(1, -1, 3), self.pixels.reshape(1, -1, 2), block_diag(*W)[None]
-        )
-
-    def distances2(self, pose: Poses, camera: Camera) -> Array:
-        """Return each corner's squared residual by its own covariance, shape (m, 4)."""
-        projected = camera.project(pose.points(self.p_body.reshape(1, -1, 3)))
-        error = projected.reshape(-1, 2) - self.pixels.reshape(-1, 2)
-        blocks = np.stack([self.covariances[:, i : i + 2, i : i + 2] for i in (0, 2, 4, 6)], axis=1)
-        solved = np.linalg.solve(blocks.reshape(-1, 2, 2), error[..., None])[..., 0]
-        distances2 = (error * solved).sum(axis=-1).reshape(self.pixels.shape[:2])
-        return np.where(np.isfinite(distances2), distances2, np.inf)
-
-
-@dataclass(frozen=True)
-class _Settled:
-    """A refined pose and the corners that agree with it."""
-
-    pose: Poses
-    agrees: BoolArray  # (m, 4)
-    spread2: float  # by how much the corners' variances are exceeded, robustly
+    corners = _corners(own, body)
+    starts = _best_two(Poses.of(RigidTransform.concatenate(proposals)), corners, camera)
+    return _result(body.name, corners, agreements(starts, corners, camera), camera)
 
 
 def _of_body(detections: Sequence[Detection], body: MarkerBody) -> list[Detection]:
+    """Return the markers that the body carries, each seen once and with usable numbers."""
     keys = [MarkerKey(d.family, d.id) for d in detections]
     carried = body.corners_m.keys()
     return [
         detection
         for key, detection in zip(keys, detections, strict=True)
-        if key in carried and keys.count(key) == 1
+        if key in carried and keys.count(key) == 1 and _is_usable(detection)
     ]
+
+
+def _is_usable(detection: Detection) -> bool:
+    whole = np.isfinite(whitening(detection.corners_cov_px2[None])).all()
+    return bool(whole and np.isfinite(detection.corners_px).all())
 
 
 def _proposals(own: Sequence[Detection], body: MarkerBody, camera: Camera) -> list[RigidTransform]:
@@ -149,10 +114,10 @@ def _proposals(own: Sequence[Detection], body: MarkerBody, camera: Camera) -> li
     ]
 
 
-def _seen(own: Sequence[Detection], body: MarkerBody) -> _Seen:
+def _corners(own: Sequence[Detection], body: MarkerBody) -> BodyCorners:
     keys = tuple(MarkerKey(d.family, d.id) for d in own)
     corners_m = body.corners_m
-    return _Seen(
+    return BodyCorners(
         keys,
         np.stack([corners_m[key] for key in keys]),
         np.stack([d.corners_px for d in own]),
@@ -160,96 +125,61 @@ def _seen(own: Sequence[Detection], body: MarkerBody) -> _Seen:
     )
 
 
-def _best_two(proposals: list[RigidTransform], seen: _Seen, camera: Camera) -> list[Poses]:
+def _best_two(proposals: Poses, corners: BodyCorners, camera: Camera) -> Poses:
     """Return the best proposal, and the best of those that lean clearly otherwise."""
-    scored = sorted(proposals, key=lambda T: _score(_stacked(T), seen, camera))
-    best = scored[0]
-    rivals = (T for T in scored[1:] if _turn_rad(best, T) > _DISTINCT_RAD)
-    return [_stacked(T) for T in (best, *list(rivals)[:1])]
+    order = np.argsort(_scores(proposals, corners, camera), kind="stable")
+    best = int(order[0])
+    leans = proposals.turns_rad(proposals[[best]]) > _DISTINCT_RAD
+    return proposals[[best, *order[leans[order]][:1]]]
 
 
-def _score(pose: Poses, seen: _Seen, camera: Camera) -> float:
-    """Return a cost that grows with the logarithm of a corner's distance."""
-    distances2 = np.minimum(seen.distances2(pose, camera), 1e12)
-    return float(np.log1p(distances2 / _GATE).sum())
+def _scores(poses: Poses, corners: BodyCorners, camera: Camera) -> Array:
+    """Return a cost of each pose that grows with the logarithm of a corner's distance."""
+    return np.asarray(np.log1p(corners.distances2(poses, camera) / GATE).sum(axis=(1, 2)))
 
 
-def _settled(start: Poses, seen: _Seen, camera: Camera) -> _Settled:
-    """Refine with Cauchy's weights, then on the corners that agree until they stay the same."""
-    pose = start
-    for _ in range(_ROUNDS):
-        distances2, spread2 = _spread(pose, seen, camera)
-        widening = np.sqrt(1 + distances2 / (_CAUCHY * spread2))
-        pose, _ = refine(pose, seen.sightings(widening), camera, max_iterations=3)
-    agrees = np.zeros(seen.pixels.shape[:2], dtype=bool)
-    for _ in range(_ROUNDS):
-        distances2, spread2 = _spread(pose, seen, camera)
-        agreed, agrees = agrees, distances2 <= _GATE * spread2
-        if (agreed == agrees).all():
-            break
-        pose, _ = refine(pose, seen.sightings(_ignoring(~agrees)), camera)
-    return _Settled(pose, agrees, spread2)
-
-
-def _spread(pose: Poses, seen: _Seen, camera: Camera) -> tuple[Array, float]:
-    """Return the corners' squared distances, and how far their median exceeds what is expected."""
-    distances2 = np.minimum(seen.distances2(pose, camera), 1e12)
-    return distances2, max(1.0, float(np.median(distances2)) / _MEDIAN)
-
-
-def _ignoring(corners: BoolArray) -> Array:
-    """Return noise factors that take some corners out of the solution."""
-    return np.where(corners, 1e6, 1.0)
-
-
-def _result(name: str, seen: _Seen, settled: list[_Settled], camera: Camera) -> BodyPose:
-    spread2 = min(candidate.spread2 for candidate in settled)
-    found = [_hypothesis(candidate, spread2, seen, camera) for candidate in settled]
-    hypotheses = ranked([hypothesis for hypothesis in found if hypothesis is not None])
+def _result(name: str, corners: BodyCorners, settled: list[Agreement], camera: Camera) -> BodyPose:
+    found = _hypotheses(settled, corners, camera)
+    hypotheses = ranked(found)
     if not hypotheses:
         return BodyPose(name, (), (), (), 1.0)
-    chosen = settled[found.index(min((h for h in found if h), key=lambda h: h.chi2))]
-    scale = _noise_scale(chosen, seen, camera)
+    chosen = settled[min((h.chi2, n) for n, h in enumerate(found) if h is not None)[1]]
+    scale = _noise_scale(chosen)
     agreeing = np.asarray(chosen.agrees.any(axis=1))
     return BodyPose(
         name,
         tuple(replace(h, covariance=h.covariance * scale**2) for h in hypotheses),
-        tuple(key for key, any_agrees in zip(seen.keys, agreeing, strict=True) if any_agrees),
-        tuple((seen.keys[m], int(corner)) for m, corner in np.argwhere(~chosen.agrees)),
+        tuple(key for key, any_agrees in zip(corners.keys, agreeing, strict=True) if any_agrees),
+        tuple((corners.keys[m], int(corner)) for m, corner in np.argwhere(~chosen.agrees)),
         scale,
     )
 
 
+def _hypotheses(
+    settled: list[Agreement], corners: BodyCorners, camera: Camera
+) -> list[PoseHypothesis | None]:
+    """Return the poses as hypotheses, None for one that repeats another or is none."""
+    spread2 = min(agreement.spread2 for agreement in settled)
+    found = [_hypothesis(agreement, spread2, corners, camera) for agreement in settled]
+    turns_rad = settled[0].pose.turns_rad(settled[-1].pose)
+    return found[:1] if (turns_rad < SAME_ROTATION_RAD).all() and found[0] else found
+
+
 def _hypothesis(
-    candidate: _Settled, spread2: float, seen: _Seen, camera: Camera
+    agreement: Agreement, spread2: float, corners: BodyCorners, camera: Camera
 ) -> PoseHypothesis | None:
-    """Return the pose as a hypothesis; its chi2 counts every corner, each up to the gate."""
-    sightings = seen.sightings(_ignoring(~candidate.agrees))
-    distances2 = np.minimum(seen.distances2(candidate.pose, camera) / spread2, _GATE)
-    chi2 = np.array([distances2.sum()])
-    (hypothesis,) = hypotheses_of(candidate.pose, chi2, sightings, camera)
+    """Return the pose as a hypothesis; in its chi2 a corner that disagrees counts as the gate."""
+    sightings = corners.agreeing(agreement.agrees)
+    chi2 = agreement.chi2 / spread2 + GATE * int((~agreement.agrees).sum())
+    (hypothesis,) = hypotheses_of(agreement.pose, np.array([chi2]), sightings, camera)
     if hypothesis is None:
         return None
-    error = residuals_px(candidate.pose, sightings, camera)[0][candidate.agrees.ravel()]
+    error = residuals_px(agreement.pose, sightings, camera)[0][agreement.agrees.ravel()]
     return replace(hypothesis, reprojection_rms_px=float(np.sqrt((error**2).sum(axis=1).mean())))
 
 
-def _noise_scale(chosen: _Settled, seen: _Seen, camera: Camera) -> float:
+def _noise_scale(chosen: Agreement) -> float:
     """Return how much wider than stated agreeing corners scatter; 1 while chance explains it."""
-    freedom = 2 * int(chosen.agrees.sum()) - 6
-    if freedom < 1:
+    if is_chance(chosen.chi2, chosen.freedom):
         return 1.0
-    sightings = seen.sightings(_ignoring(~chosen.agrees))
-    error = residuals_px(chosen.pose, sightings, camera).reshape(-1)
-    chi2 = float(((sightings.whitening[0] @ error) ** 2).sum())
-    if chi2 < chdtri(freedom, 0.01):
-        return 1.0
-    return float(np.sqrt(chi2 / freedom))
-
-
-def _stacked(T_camera_body: RigidTransform) -> Poses:
-    return Poses(T_camera_body.rotation.as_matrix()[None], T_camera_body.translation[None])
-
-
-def _turn_rad(one: RigidTransform, other: RigidTransform) -> float:
-    return float((one.rotation * other.rotation.inv()).magnitude())
+    return float(np.sqrt(chosen.chi2 / chosen.freedom))

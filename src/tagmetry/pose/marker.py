@@ -20,8 +20,9 @@ from tagmetry.markers import marker_corners_m
 from tagmetry.pose.ippe import ippe
 from tagmetry.pose.refine import Poses, Sightings, covariances, refine, residuals_px
 from tagmetry.pose.result import MarkerPose, PoseHypothesis
+from tagmetry.pose.whitening import whitening
 
-_SAME_ROTATION_RAD = 1e-4  # two refinements that end this close found one minimum
+SAME_ROTATION_RAD = 1e-4  # two refinements that end this close found one minimum
 
 
 def estimate_pose(detection: Detection, camera: Camera, size_m: float) -> MarkerPose:
@@ -85,25 +86,22 @@ def solve(
     possible &= np.isfinite(seen.whitening).all(axis=(1, 2))
     hypotheses: list[tuple[PoseHypothesis, ...]] = [()] * len(sizes_m)
     if possible.any():
-        seen = Sightings(seen.p_body[possible], corners_px[possible], seen.whitening[possible])
+        seen = seen[possible]
         starts = ippe(rays[possible], seen.p_body)
         for n, found in zip(np.flatnonzero(possible), _minima(*starts, seen, camera), strict=True):
             hypotheses[n] = ranked(found)
     return hypotheses
 
 
-def ranked(found: Sequence[PoseHypothesis]) -> tuple[PoseHypothesis, ...]:
-    """Return distinct hypotheses with their probabilities, the likelier first."""
-    distinct: list[PoseHypothesis] = []
-    for hypothesis in sorted(found, key=lambda h: h.chi2):
-        if not any(_is_same(hypothesis, other) for other in distinct):
-            distinct.append(hypothesis)
-    if not distinct:
+def ranked(found: Sequence[PoseHypothesis | None]) -> tuple[PoseHypothesis, ...]:
+    """Return the hypotheses that there are with their probabilities, the likelier first."""
+    hypotheses = sorted((h for h in found if h is not None), key=lambda h: h.chi2)
+    if not hypotheses:
         return ()
-    weights = np.exp([(distinct[0].chi2 - h.chi2) / 2 for h in distinct])
+    weights = np.exp([(hypotheses[0].chi2 - h.chi2) / 2 for h in hypotheses])
     shares = weights / weights.sum()
     return tuple(
-        replace(h, probability=float(share)) for h, share in zip(distinct, shares, strict=True)
+        replace(h, probability=float(share)) for h, share in zip(hypotheses, shares, strict=True)
     )
 
 
@@ -115,39 +113,31 @@ def hypotheses_of(
     squared = (residuals_px(poses, seen, camera) ** 2).sum(axis=-1)
     rms_px = np.sqrt(squared.mean(axis=-1))
     usable = np.isfinite(chi2) & np.isfinite(covariance).all(axis=(1, 2))
-    return [
-        PoseHypothesis(
-            poses.transform(n), covariance[n], float(rms_px[n]), float(chi2[n]), probability=1.0
-        )
-        if usable[n]
-        else None
-        for n in range(len(chi2))
-    ]
-
-
-def whitening(covariances_px2: Array) -> Array:
-    """Return W with W C W^T = I for each covariance (n, m, m); NaN for one that is not positive."""
-    identity = np.eye(covariances_px2.shape[-1])
-    usable = np.asarray(np.isfinite(covariances_px2).all(axis=(1, 2)))
-    safe = np.where(usable[:, None, None], covariances_px2, identity)
-    usable &= np.linalg.eigvalsh(safe)[:, 0] > 0
-    safe = np.where(usable[:, None, None], safe, identity)
-    W = np.linalg.solve(np.linalg.cholesky(safe), np.broadcast_to(identity, safe.shape))
-    return np.where(usable[:, None, None], W, np.nan)
+    found: list[PoseHypothesis | None] = [None] * len(chi2)
+    if usable.any():
+        Ts_camera_body = poses[usable].transforms()
+        for n, T in zip(np.flatnonzero(usable), Ts_camera_body, strict=True):
+            found[n] = PoseHypothesis(T, covariance[n], float(rms_px[n]), float(chi2[n]), 1.0)
+    return found
 
 
 def _minima(
     start_R: Array, start_t: Array, seen: Sightings, camera: Camera
-) -> list[list[PoseHypothesis]]:
-    """Refine both starts of every marker; a start that led nowhere is left out."""
-    found: list[list[PoseHypothesis]] = [[] for _ in seen.pixels]
-    for branch in (0, 1):
-        start = Poses(start_R[:, branch], start_t[:, branch])
-        poses, chi2 = refine(start, seen, camera)
-        for n, hypothesis in enumerate(hypotheses_of(poses, chi2, seen, camera)):
-            if hypothesis is not None and _faces_camera(hypothesis):
-                found[n].append(hypothesis)
-    return found
+) -> list[list[PoseHypothesis | None]]:
+    """Refine both starts of every marker at once; None for a start that led nowhere new."""
+    starts = Poses(start_R.reshape(-1, 3, 3), start_t.reshape(-1, 3))
+    poses, chi2 = refine(starts, seen.repeated(2), camera)
+    chi2 = distinct(poses, np.where(_faces_camera(poses), chi2, np.inf))
+    both = hypotheses_of(poses, chi2, seen.repeated(2), camera)
+    return [both[n : n + 2] for n in range(0, len(both), 2)]
+
+
+def distinct(poses: Poses, chi2: Array) -> Array:
+    """Return chi2 (2n,), infinite for the second of a pair that ended in the first's minimum."""
+    same = poses[0::2].turns_rad(poses[1::2]) < SAME_ROTATION_RAD
+    twice = np.zeros(len(chi2), dtype=bool)
+    twice[1::2] = same & np.isfinite(chi2[0::2])
+    return np.where(twice, np.inf, chi2)
 
 
 def _is_marker(corners_px: Array) -> BoolArray:
@@ -161,12 +151,6 @@ def _is_marker(corners_px: Array) -> BoolArray:
         return np.asarray((sines > 1e-6).all(axis=1) & np.isfinite(corners_px).all(axis=(1, 2)))
 
 
-def _faces_camera(hypothesis: PoseHypothesis) -> bool:
-    """Say whether the printed face is turned to the camera."""
-    pose = hypothesis.T_camera_marker
-    return bool(pose.rotation.as_matrix()[:, 2] @ pose.translation < 0)
-
-
-def _is_same(one: PoseHypothesis, other: PoseHypothesis) -> bool:
-    turn = one.T_camera_marker.rotation * other.T_camera_marker.rotation.inv()
-    return bool(turn.magnitude() < _SAME_ROTATION_RAD)
+def _faces_camera(poses: Poses) -> BoolArray:
+    """Say of which markers the printed face is turned to the camera, shape (n,)."""
+    return np.asarray((poses.R_camera_body[:, :, 2] * poses.t_camera_body).sum(axis=1) < 0)

@@ -14,6 +14,8 @@ from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.arrays import BoolArray
 from tagmetry.geometry.transforms import Rotation, cross_matrix
 
+_SETTLED = 1e-10  # chi2 changes by less than this share: a hundred-thousandth of a deviation
+
 
 @dataclass(frozen=True)
 class Sightings:
@@ -29,6 +31,15 @@ class Sightings:
     pixels: Array
     whitening: Array
 
+    def __getitem__(self, chosen: BoolArray) -> "Sightings":
+        """Return some of the sightings."""
+        return Sightings(self.p_body[chosen], self.pixels[chosen], self.whitening[chosen])
+
+    def repeated(self, times: int) -> "Sightings":
+        """Return every sighting several times in a row."""
+        parts = (self.p_body, self.pixels, self.whitening)
+        return Sightings(*(np.repeat(part, times, axis=0) for part in parts))
+
 
 @dataclass(frozen=True)
 class Poses:
@@ -42,10 +53,24 @@ class Poses:
     R_camera_body: Array
     t_camera_body: Array
 
-    def transform(self, n: int) -> RigidTransform:
-        """Return one of the poses."""
-        rotation = Rotation.from_matrix(self.R_camera_body[n])
-        return RigidTransform.from_components(self.t_camera_body[n], rotation)
+    def __getitem__(self, chosen: slice | BoolArray | list[int]) -> "Poses":
+        """Return some of the poses."""
+        return Poses(self.R_camera_body[chosen], self.t_camera_body[chosen])
+
+    @classmethod
+    def of(cls, Ts_camera_body: RigidTransform) -> "Poses":
+        """Return n rigid transforms as plain arrays."""
+        return cls(Ts_camera_body.rotation.as_matrix(), np.asarray(Ts_camera_body.translation))
+
+    def turns_rad(self, other: "Poses") -> Array:
+        """Return the angles between these n rotations and others (n or 1), shape (n,)."""
+        chord = np.linalg.norm(self.R_camera_body - other.R_camera_body, axis=(1, 2))
+        return np.asarray(2 * np.arcsin(np.minimum(chord / np.sqrt(8), 1.0)))
+
+    def transforms(self) -> RigidTransform:
+        """Return the n poses as rigid transforms."""
+        rotations = Rotation.from_matrix(self.R_camera_body)
+        return RigidTransform.from_components(self.t_camera_body, rotations)
 
     def moved(self, change: Array) -> "Poses":
         """Return the poses after small changes, shape (n, 6)."""
@@ -63,6 +88,32 @@ class Poses:
         return np.asarray(turned + self.t_camera_body[:, None])
 
 
+@dataclass(frozen=True)
+class _Fit:
+    """How n poses fit what was seen.
+
+    Attributes:
+        poses: The poses.
+        J: d(whitened residuals) / d(change of the pose), shape (n, 2k, 6).
+        error: Whitened residuals, shape (n, 2k, 1).
+        chi2: Their squared sum, shape (n,); infinite where a point does not project.
+    """
+
+    poses: Poses
+    J: Array
+    error: Array
+    chi2: Array
+
+    def where(self, condition: BoolArray, other: "_Fit") -> "_Fit":
+        """Return these fits where the condition (n,) holds, else the others."""
+        return _Fit(
+            self.poses.where(condition, other.poses),
+            np.where(condition[:, None, None], self.J, other.J),
+            np.where(condition[:, None, None], self.error, other.error),
+            np.where(condition, self.chi2, other.chi2),
+        )
+
+
 def refine(
     start: Poses, seen: Sightings, camera: Camera, max_iterations: int = 50
 ) -> tuple[Poses, Array]:
@@ -71,26 +122,25 @@ def refine(
     A pose whose points do not all project (behind the camera, beyond the lens) has chi2 infinite
     and stays where it is.
     """
-    poses, chi2 = start, _chi2(start, seen, camera)
-    damping = np.full(len(chi2), 1e-3)
-    active = np.isfinite(chi2)
+    fit = _fit(start, seen, camera)
+    damping = np.full(len(fit.chi2), 1e-3)
+    active = np.isfinite(fit.chi2)
     for _ in range(max_iterations):
         if not active.any():
             break
-        change = _step(poses, seen, camera, damping)
-        tried = poses.moved(np.where(active[:, None], change, 0.0))
-        tried_chi2 = _chi2(tried, seen, camera)
-        better = active & (tried_chi2 <= chi2)
-        settled = np.abs(chi2 - tried_chi2) <= 1e-10 * (1 + chi2)
-        poses, chi2 = tried.where(better, poses), np.where(better, tried_chi2, chi2)
+        change = np.where(active[:, None], _step(fit, damping), 0.0)
+        tried = _fit(fit.poses.moved(change), seen, camera)
+        better = active & (tried.chi2 <= fit.chi2)
+        settled = np.abs(fit.chi2 - tried.chi2) <= _SETTLED * (1 + fit.chi2)
+        fit = tried.where(better, fit)
         damping = np.where(better, damping / 10, damping * 10)
         active &= ~settled & (damping < 1e12)
-    return poses, chi2
+    return fit.poses, fit.chi2
 
 
 def covariances(poses: Poses, seen: Sightings, camera: Camera) -> Array:
     """Return (J^T C^-1 J)^-1, shape (n, 6, 6), m and rad, on the left in the camera frame."""
-    J, _ = _whitened(poses, seen, camera)
+    J = _fit(poses, seen, camera).J
     return _inverse(np.swapaxes(J, 1, 2) @ J)
 
 
@@ -99,30 +149,25 @@ def residuals_px(poses: Poses, seen: Sightings, camera: Camera) -> Array:
     return camera.project(poses.points(seen.p_body)) - seen.pixels
 
 
-def _chi2(poses: Poses, seen: Sightings, camera: Camera) -> Array:
-    error = residuals_px(poses, seen, camera).reshape(len(seen.pixels), -1, 1)
-    with np.errstate(over="ignore", invalid="ignore"):
-        chi2 = ((seen.whitening @ error) ** 2).sum(axis=(1, 2))
-    return np.where(np.isfinite(chi2), chi2, np.inf)
-
-
-def _step(poses: Poses, seen: Sightings, camera: Camera, damping: Array) -> Array:
-    J, error = _whitened(poses, seen, camera)
-    information = np.swapaxes(J, 1, 2) @ J
-    diagonal = np.einsum("nii->ni", information)
-    damped = information + (damping[:, None] * diagonal)[:, :, None] * np.eye(6)
-    change = -(_inverse(damped) @ (np.swapaxes(J, 1, 2) @ error))[..., 0]
-    return np.where(np.isfinite(change).all(axis=1, keepdims=True), change, 0.0)
-
-
-def _whitened(poses: Poses, seen: Sightings, camera: Camera) -> tuple[Array, Array]:
-    """Return the whitened Jacobian, shape (n, 2k, 6), and residuals, shape (n, 2k, 1)."""
+def _fit(poses: Poses, seen: Sightings, camera: Camera) -> _Fit:
     arms = seen.p_body @ np.swapaxes(poses.R_camera_body, 1, 2)
     pixels, by_point = camera.project_with_jacobian(arms + poses.t_camera_body[:, None])
     by_pose = np.concatenate([by_point, -by_point @ cross_matrix(arms)], axis=-1)
-    n = len(arms)
-    error = (pixels - seen.pixels).reshape(n, -1, 1)
-    return seen.whitening @ by_pose.reshape(n, -1, 6), seen.whitening @ error
+    J = seen.whitening @ by_pose.reshape(len(arms), -1, 6)
+    error = seen.whitening @ (pixels - seen.pixels).reshape(len(arms), -1, 1)
+    with np.errstate(over="ignore", invalid="ignore"):
+        chi2 = (error**2).sum(axis=(1, 2))
+    return _Fit(poses, J, error, np.where(np.isfinite(chi2), chi2, np.inf))
+
+
+def _step(fit: _Fit, damping: Array) -> Array:
+    """Return Levenberg and Marquardt's change of each pose (n, 6); zero where there is none."""
+    J_transposed = np.swapaxes(fit.J, 1, 2)
+    information = J_transposed @ fit.J
+    diagonal = np.einsum("nii->ni", information)
+    damped = information + (damping[:, None] * diagonal)[:, :, None] * np.eye(6)
+    change = -(_inverse(damped) @ (J_transposed @ fit.error))[..., 0]
+    return np.where(np.isfinite(change).all(axis=1, keepdims=True), change, 0.0)
 
 
 def _inverse(information: Array) -> Array:
