@@ -5,9 +5,12 @@ import sys
 from pathlib import Path
 
 import cv2
+import numpy as np
 import pytest
 
 from tagmetry.cli.main import run
+from tagmetry.files import save_family
+from tagmetry.markers import generate_family
 
 CHARUCO = ["board", "charuco", "--columns=5", "--rows=6", "--square=30mm", "--size=22mm"]
 COMMANDS = {
@@ -104,3 +107,14 @@ def test_help_loads_nothing_heavy() -> None:
     )
     assert done.stdout.endswith("[]\n")
     assert "--inverted" in done.stdout
+
+
+def test_prints_a_family_of_ones_own_from_its_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own = generate_family("own", 4, 3, 4, np.random.default_rng(0))
+    save_family(own, tmp_path / "own.yaml")
+    dictionary, out = str(tmp_path / "own.yaml"), str(tmp_path / "sheet.svg")
+    options = ["--family", dictionary, "--ids", "all", "--size", "40mm", "--out", out]
+    assert run(["print", "sheet", *options]) == 0
+    assert "own, ids 0-2, 40 mm" in capsys.readouterr().out

@@ -16,6 +16,9 @@ app.add_typer(board_app, name="board")
 
 _LENGTH = "metres, or with a unit: 120mm, 12cm, 4in"
 Family = Annotated[str, typer.Option(help="Marker family, e.g. tag36h11 or 4x4_50.")]
+MarkerFamily = Annotated[
+    str, typer.Option("--family", help="Marker family, e.g. tag36h11, or a dictionary file.")
+]
 Size = Annotated[str, typer.Option(help=f"Side of a marker's black square, {_LENGTH}.")]
 Square = Annotated[str, typer.Option(help=f"Side of a square, {_LENGTH}.")]
 Columns = Annotated[int, typer.Option(help="How many stand in a row.")]
@@ -36,7 +39,7 @@ def marker(  # noqa: PLR0913 (each argument is an option)
     marker_id: Annotated[int, typer.Option("--id", help="Id of the marker.")],
     size: Size,
     out: Out,
-    family: Family = "tag36h11",
+    family: MarkerFamily = "tag36h11",
     paper: PaperSize = "a4",
     orientation: Orientation = "auto",
     margin: Margin = "10mm",
@@ -45,12 +48,12 @@ def marker(  # noqa: PLR0913 (each argument is an option)
     dpi: Dpi = 600,
 ) -> None:
     """Print one marker."""
-    from tagmetry import markers
+    from tagmetry.files import resolve_family
     from tagmetry.files.lengths import parse_length_m
     from tagmetry.files.sheets import marker_page
 
     setup = _setup(paper, orientation, margin, quiet, inverted)
-    page = marker_page(markers.family(family), marker_id, parse_length_m(size), setup)
+    page = marker_page(resolve_family(family), marker_id, parse_length_m(size), setup)
     _write([page], out, dpi)
 
 
@@ -60,7 +63,7 @@ def sheet(  # noqa: PLR0913 (each argument is an option)
     ids: Annotated[str, typer.Option(help="Ids to print: 0-23,30, or all.")],
     size: Size,
     out: Out,
-    family: Family = "tag36h11",
+    family: MarkerFamily = "tag36h11",
     paper: PaperSize = "a4",
     orientation: Orientation = "auto",
     margin: Margin = "10mm",
@@ -69,12 +72,12 @@ def sheet(  # noqa: PLR0913 (each argument is an option)
     dpi: Dpi = 600,
 ) -> None:
     """Print many markers to cut out, on as many pages as they need."""
-    from tagmetry import markers
+    from tagmetry.files import resolve_family
     from tagmetry.files.lengths import parse_length_m
     from tagmetry.files.sheets import parse_ids, sheet_pages
 
     setup = _setup(paper, orientation, margin, quiet, inverted)
-    wanted = markers.family(family)
+    wanted = resolve_family(family)
     _write(sheet_pages(wanted, parse_ids(ids, wanted), parse_length_m(size), setup), out, dpi)
 
 
