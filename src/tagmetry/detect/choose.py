@@ -23,18 +23,22 @@ class Candidate:
         corners_px: Clockwise from the marker's own top left, shape (4, 2).
         match: The marker.
         is_inverted: It is printed white on black.
+        outline: How clearly the image steps across its sides, 0 to 1.
     """
 
     corners_px: Array
     match: Match
     is_inverted: bool
+    outline: float
 
     @property
     def rank(self) -> tuple[int, float]:
-        """Sorts better readings first; an outline inside a wide border reads as well as its own."""
-        sides = self.corners_px - np.roll(self.corners_px, 1, axis=0)
-        side_px = np.linalg.norm(sides, axis=1).mean()
-        return self.match.hamming, -self.match.confidence * float(side_px)
+        """Sorts better readings first.
+
+        Squares a few pixels off, or inside a wide border, read as well as the right one; the image
+        steps across the right one's sides only.
+        """
+        return self.match.hamming, -self.match.confidence * self.outline
 
 
 @dataclass(frozen=True)
@@ -69,7 +73,8 @@ class Rules:
             )
         if match.confidence < _LEAST_CONFIDENCE:
             return f"{match.family.name} id {match.id} is too unclear ({match.confidence:.2f})"
-        return Candidate(np.roll(corners_px, -match.quarters, axis=0), match, is_inverted)
+        upright_px = np.roll(corners_px, -match.quarters, axis=0)
+        return Candidate(upright_px, match, is_inverted, reading.outline)
 
     def _forgiven(self, family: MarkerFamily) -> int:
         return family.forgiven_bits if self.forgive_bits is None else self.forgive_bits

@@ -1,13 +1,16 @@
 """Which marker is it? Bits are read at cell centres against local black and white.
 
 Black is a plane fitted to the border's cells, white a plane fitted just outside the border; the
-threshold lies midway, so light that falls off across the marker does no harm.
+threshold lies midway, so light that falls off across the marker does no harm. Each bit is sharpened
+against the cells beside it: blur mixes neighbours, and single cells would drown in theirs first.
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
+from tagmetry.detect.sample import bilinear, steps_across
 from tagmetry.geometry import Array, apply_homography, square_to_quad
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import Layout, MarkerFamily
@@ -15,6 +18,7 @@ from tagmetry.markers import Layout, MarkerFamily
 _LEAST_CONTRAST = 8.0  # grey values between black and white
 _BORDER_ERRORS = 0.2  # share of border cells that may read white
 _OUTSIDE_CELLS = 0.35  # how far outside the border white is looked for
+_SHARPEN = 0.25  # share of the difference to each neighbour that is added
 _TAPS = np.array([[-0.17, -0.17], [0.17, -0.17], [-0.17, 0.17], [0.17, 0.17]])  # cells
 
 
@@ -28,12 +32,15 @@ class Reading:
         border_share: Share of the border's cells that read black.
         contrast: White minus black, grey values; negative where the marker is inverted.
         border_margin: Mean clearness of the border's cells.
+        outline: How clearly the image steps across the sides, 0 to 1: 1 when the whole contrast lies
+            within a pixel of them everywhere.
     """
 
     margins: Array
     border_share: float
     contrast: float
     border_margin: float
+    outline: float
 
 
 @dataclass(frozen=True)
@@ -79,6 +86,8 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | 
     half = np.where(np.abs(contrast) < _LEAST_CONTRAST, np.nan, contrast / 2)
     margins = (np.concatenate([black, bits], axis=1) - (dark + bright) / 2) / half[:, None]
     count = len(black_at)
+    outline = np.clip(steps_across(grey, corners_px) / (2 * half[:, None]), 0, 1).mean(axis=1)
+    margins[:, count:] = margins @ _sharpening(layout).T
     return [
         None
         if np.isnan(half[i])
@@ -87,6 +96,7 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | 
             float((margins[i, :count] < 0).mean()),
             float(contrast[i]),
             float(-np.clip(margins[i, :count], -1, 1).mean()),
+            float(outline[i]),
         )
         for i in range(len(corners_px))
     ]
@@ -134,25 +144,22 @@ def _outside(layout: Layout) -> Array:
     return np.concatenate([np.stack(pair, axis=1) for pair in pairs])
 
 
+@cache
+def _sharpening(layout: Layout) -> Array:
+    """Return the matrix (bits, border + bits) that takes each bit farther from its neighbours."""
+    centres = np.concatenate([border_centres(layout), layout.bit_centres]) * layout.side_cells
+    apart = np.abs(layout.bit_centres[:, None] * layout.side_cells - centres).sum(axis=2)
+    beside = np.isclose(apart, 1.0)
+    own = np.isclose(apart, 0.0)
+    return np.asarray(own * (1 + _SHARPEN * beside.sum(axis=1))[:, None] - _SHARPEN * beside)
+
+
 def _sampled(grey: GreyPixels, H: Array, at: Array, layout: Layout) -> Array:
     """Return the mean of four taps around places of the unit square, shape (n, k)."""
     places = (at[:, None] + _TAPS / layout.side_cells).reshape(-1, 2)
     pixels = apply_homography(H, np.broadcast_to(places, (len(H), *places.shape)))
-    values = _bilinear(grey, pixels.reshape(-1, 2)).reshape(len(H), len(at), len(_TAPS))
+    values = bilinear(grey, pixels.reshape(-1, 2)).reshape(len(H), len(at), len(_TAPS))
     return np.asarray(values.mean(axis=2))
-
-
-def _bilinear(grey: GreyPixels, pixels: Array) -> Array:
-    """Return grey values between pixels, shape (n,); the image's edge is repeated outside."""
-    height_px, width_px = grey.shape
-    x = np.clip(np.nan_to_num(pixels[:, 0]), 0, width_px - 1.001)
-    y = np.clip(np.nan_to_num(pixels[:, 1]), 0, height_px - 1.001)
-    column, row = x.astype(np.intp), y.astype(np.intp)
-    right, down = x - column, y - row
-    flat, first = grey.ravel(), row * width_px + column
-    above = flat[first] * (1 - right) + flat[first + 1] * right
-    below = flat[first + width_px] * (1 - right) + flat[first + width_px + 1] * right
-    return np.asarray(above * (1 - down) + below * down)
 
 
 def _plane(at: Array, values: Array, wanted: Array) -> Array:

@@ -1,9 +1,10 @@
 """Dark or bright squares in a grey image: the candidates for markers.
 
-Each pass thresholds the image against its neighbourhood's mean, follows the outlines, and keeps
-those that are well described by four sides. Passes differ in the neighbourhood's size, in scale
-(small markers are looked for in an enlarged image) and in whether dark areas are thinned first
-(which parts the squares of a board whose corners touch).
+Each pass thresholds the image against its neighbourhood, follows the outlines, and keeps those that
+are well described by four sides. Passes differ in the neighbourhood's size, in scale (small markers
+are looked for in an enlarged image) and in what counts as dark: darker than the mean, the same
+thinned (which parts the squares of a board whose corners touch), or below midway between the
+darkest and the brightest (which follows the true edges of a blurred board on bright paper).
 
 OpenCV's primitives do the work; `quads` is the seam where an engine of our own will follow.
 """
@@ -17,6 +18,7 @@ import numpy as np
 from tagmetry.geometry.arrays import AnyPixels, Array, GreyPixels
 
 _DARKER_BY = 6  # grey values below the neighbourhood's mean
+_CLEAR = 20  # grey values between the darkest and the brightest around
 _STRAIGHT = 0.04  # how far an outline may stray from its polygon, as a share of its length
 _LEAST_ANGLE_SINE = 0.2
 _MAX_OUTLINES = 3000  # per pass, the longest first: noise must not stall a frame
@@ -28,12 +30,15 @@ class Pass:
 
     Attributes:
         scale: The image is resized by this factor first.
-        window_share: Side of the neighbourhood as a share of the image's longer side.
+        window_px: Side of the neighbourhood, pixels of the resized image.
+        midway: Dark is what lies below midway between the neighbourhood's darkest and brightest,
+            instead of what is darker than its mean.
         thinned: Dark areas are thinned by a pixel before outlines are followed.
     """
 
     scale: float
     window_px: int
+    midway: bool = False
     thinned: bool = False
 
 
@@ -46,7 +51,8 @@ def passes(width_px: int, height_px: int, min_side_px: float) -> tuple[Pass, ...
     wide_px = _odd(longer_px / 16)
     plain = [Pass(1.0, size) for size in sorted({9, 21, wide_px})]
     thinned = [Pass(1.0, 21, thinned=True)]
-    enlarged = [Pass(2.0, 15), Pass(2.0, 33)] if min_side_px < 24 else []
+    enlarged = [Pass(2.0, 15), Pass(2.0, 31, midway=True), Pass(2.0, 31, midway=True, thinned=True)]
+    enlarged = enlarged if min_side_px < 24 else []
     return (*plain, *thinned, *enlarged)
 
 
@@ -75,17 +81,31 @@ def _quads_of_pass(grey: GreyPixels, one: Pass, min_side_px: float) -> Array:
             cv2.resize(grey, None, fx=one.scale, fy=one.scale, interpolation=cv2.INTER_CUBIC),
             dtype=np.uint8,
         )
-    dark = cv2.adaptiveThreshold(
-        scaled, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, one.window_px, _DARKER_BY
-    )
-    outset_px = 0.5
-    if one.thinned:
-        dark = cv2.erode(dark, np.ones((3, 3), np.uint8))
-        outset_px = 1.5
+    dark = _dark(scaled, one)
+    outset_px = 1.5 if one.thinned else 0.5
     outlines, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_NONE)
     found = list(_four_sided(outlines, one.scale * min_side_px, outset_px))
     corners = np.array(found).reshape(-1, 4, 2)
     return (corners + 0.5) / one.scale - 0.5
+
+
+def _dark(grey: GreyPixels, one: Pass) -> AnyPixels:
+    """Return what is dark in a pass as 255, the rest as 0."""
+    dark = (_below_midway if one.midway else _below_mean)(grey, one.window_px)
+    return cv2.erode(dark, np.ones((3, 3), np.uint8)) if one.thinned else dark
+
+
+def _below_mean(grey: GreyPixels, window_px: int) -> AnyPixels:
+    method, kind = cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV
+    return cv2.adaptiveThreshold(grey, 255, method, kind, window_px, _DARKER_BY)
+
+
+def _below_midway(grey: GreyPixels, window_px: int) -> AnyPixels:
+    window = np.ones((window_px, window_px), np.uint8)
+    darkest, brightest = cv2.erode(grey, window), cv2.dilate(grey, window)
+    midway = cv2.addWeighted(darkest, 0.5, brightest, 0.5, 0)
+    clear = cv2.compare(cv2.subtract(brightest, darkest), _CLEAR, cv2.CMP_GE)
+    return cv2.bitwise_and(cv2.compare(grey, midway, cv2.CMP_LT), clear)
 
 
 def _four_sided(
