@@ -1,15 +1,11 @@
 """Marker families, boards, and bodies of several markers."""
 
-from tagmetry.markers.boards import (
-    AprilGrid,
-    Board,
-    CharucoBoard,
-    Chessboard,
-    GridBoard,
-)
+from tagmetry.markers.board import Board
 from tagmetry.markers.bodies import MarkerBody, MountedMarker, cube, marker_corners_m
+from tagmetry.markers.chessboards import CharucoBoard, Chessboard
 from tagmetry.markers.family import MarkerFamily
 from tagmetry.markers.generate import generate_family
+from tagmetry.markers.grids import AprilGrid, GridBoard
 from tagmetry.markers.layout import Layout
 from tagmetry.markers.predefined import family, family_names
 
