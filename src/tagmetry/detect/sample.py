@@ -25,7 +25,7 @@ def steps_across(grey: GreyPixels, corners_px: Array) -> Array:
     on = corners_px[:, :, None] + _ALONG[:, None] * along[:, :, None]
     off = _STEP_PX * outward[:, :, None]
     outside, inside = (bilinear(grey, at.reshape(-1, 2)) for at in (on + off, on - off))
-    return (outside - inside).reshape(len(corners_px), -1)
+    return (outside - inside).reshape(len(corners_px), 4 * len(_ALONG))
 
 
 def bilinear(grey: GreyPixels, pixels: Array) -> Array:
