@@ -33,7 +33,7 @@ BOARD = GridBoard(3, 2, 0.08, 0.02, "tag36h11", first_id=20).markers()
 FLOOR = tuple(
     MountedMarker("tag36h11", marker_id, size_m, RigidTransform.from_translation([x_m, y_m, 0]))
     for marker_id, size_m, x_m, y_m in (
-        (0, 0.15, 0.0, 0.0),
+        (0, 0.14, 0.0, 0.0),
         (1, 0.05, 0.2, 0.1),
         (2, 0.05, -0.2, 0),
     )
