@@ -15,7 +15,7 @@ from tagmetry.camera import Camera
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 from tagmetry.markers.bodies import MarkerKey
-from tagmetry.pose.refine import Poses, Sightings, refine
+from tagmetry.pose.refine import Fit, Poses, Sightings, refine
 from tagmetry.pose.whitening import whitening
 
 GATE = 16.3  # chi2 with 2 degrees of freedom: one good corner in 3500 is turned away
@@ -71,16 +71,19 @@ class Agreement:
     """A refined pose and the corners that agree with it.
 
     Attributes:
-        pose: One pose.
+        fit: One pose, fitted to the agreeing corners.
         agrees: Shape (m, 4).
         spread2: By how much the corners' variances are exceeded, robustly; at least 1.
-        chi2: Squared whitened residuals of the agreeing corners.
     """
 
-    pose: Poses
+    fit: Fit
     agrees: BoolArray
     spread2: float
-    chi2: float
+
+    @property
+    def chi2(self) -> float:
+        """Squared whitened residuals of the agreeing corners."""
+        return float(self.fit.chi2[0])
 
     @property
     def freedom(self) -> int:
@@ -106,26 +109,31 @@ def _plain(starts: Poses, corners: BodyCorners, camera: Camera) -> list[Agreemen
     """Refine the poses on all corners."""
     count = len(starts.t_camera_body)
     all_agree = np.ones(corners.pixels.shape[:2], dtype=bool)
-    poses, chi2 = refine(starts, corners.agreeing(all_agree).repeated(count), camera)
-    return [Agreement(poses[n : n + 1], all_agree, 1.0, float(chi2[n])) for n in range(count)]
+    fit = refine(starts, corners.agreeing(all_agree).repeated(count), camera)
+    return [Agreement(fit[n : n + 1], all_agree, 1.0) for n in range(count)]
 
 
 def _explains_all(plain: Agreement, corners: BodyCorners, camera: Camera) -> bool:
-    near = (corners.distances2(plain.pose, camera) <= GATE).all()
+    near = (corners.distances2(plain.fit.poses, camera) <= GATE).all()
     return bool(near) and is_chance(plain.chi2, plain.freedom)
 
 
 def _settled(start: Poses, corners: BodyCorners, camera: Camera) -> Agreement:
     """Refine with Cauchy's weights, then on the corners that agree until they stay the same."""
     pose = _reweighted(start, corners, camera)
-    agrees = np.zeros(corners.pixels.shape[:2], dtype=bool)
+    settled = _agreement(pose, corners, camera)
     for _ in range(_ROUNDS):
-        distances2, spread2 = _spread(pose, corners, camera)
-        agreed, agrees = agrees, distances2 <= GATE * spread2
-        if (agreed == agrees).all():
+        before, settled = settled, _agreement(settled.fit.poses, corners, camera)
+        if (before.agrees == settled.agrees).all():
             break
-        pose, chi2 = refine(pose, corners.agreeing(agrees), camera)
-    return Agreement(pose, agrees, spread2, float(chi2[0]))
+    return settled
+
+
+def _agreement(pose: Poses, corners: BodyCorners, camera: Camera) -> Agreement:
+    """Refine a pose on the corners that agree with it."""
+    distances2, spread2 = _spread(pose, corners, camera)
+    agrees = distances2 <= GATE * spread2
+    return Agreement(refine(pose, corners.agreeing(agrees), camera), agrees, spread2)
 
 
 def _reweighted(pose: Poses, corners: BodyCorners, camera: Camera) -> Poses:
@@ -136,7 +144,7 @@ def _reweighted(pose: Poses, corners: BodyCorners, camera: Camera) -> Poses:
         before, widening = widening, np.sqrt(1 + distances2 / (_CAUCHY * spread2))
         if (np.abs(widening - before) <= _STEADY * widening).all():
             break
-        pose, _ = refine(pose, corners.sightings(widening), camera, max_iterations=3)
+        pose = refine(pose, corners.sightings(widening), camera, max_iterations=3).poses
     return pose
 
 

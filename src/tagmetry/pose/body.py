@@ -20,8 +20,8 @@ from tagmetry.geometry import Array, RigidTransform
 from tagmetry.markers import MarkerBody
 from tagmetry.markers.bodies import MarkerKey
 from tagmetry.pose.agreement import GATE, Agreement, BodyCorners, agreements, is_chance
-from tagmetry.pose.marker import SAME_ROTATION_RAD, estimate_poses, hypotheses_of, ranked
-from tagmetry.pose.refine import Poses, residuals_px
+from tagmetry.pose.marker import estimate_poses, hypotheses_of, ranked, rms_px
+from tagmetry.pose.refine import Poses, joined
 from tagmetry.pose.result import PoseHypothesis
 from tagmetry.pose.whitening import whitening
 
@@ -126,11 +126,11 @@ def _corners(own: Sequence[Detection], body: MarkerBody) -> BodyCorners:
 
 
 def _best_two(proposals: Poses, corners: BodyCorners, camera: Camera) -> Poses:
-    """Return the best proposal, and the best of those that lean clearly otherwise."""
+    """Return the best proposal and the best that clearly leans otherwise, or the best twice."""
     order = np.argsort(_scores(proposals, corners, camera), kind="stable")
-    best = int(order[0])
-    leans = proposals.turns_rad(proposals[[best]]) > _DISTINCT_RAD
-    return proposals[[best, *order[leans[order]][:1]]]
+    ranked_proposals = proposals[order]
+    leans = ranked_proposals.turns_rad(ranked_proposals[:1]) > _DISTINCT_RAD
+    return ranked_proposals[np.array([0, np.argmax(leans)])]
 
 
 def _scores(poses: Poses, corners: BodyCorners, camera: Camera) -> Array:
@@ -158,24 +158,18 @@ def _result(name: str, corners: BodyCorners, settled: list[Agreement], camera: C
 def _hypotheses(
     settled: list[Agreement], corners: BodyCorners, camera: Camera
 ) -> list[PoseHypothesis | None]:
-    """Return the poses as hypotheses, None for one that repeats another or is none."""
+    """Return the poses as hypotheses; in their chi2 a corner that disagrees counts as the gate."""
     spread2 = min(agreement.spread2 for agreement in settled)
-    found = [_hypothesis(agreement, spread2, corners, camera) for agreement in settled]
-    turns_rad = settled[0].pose.turns_rad(settled[-1].pose)
-    return found[:1] if (turns_rad < SAME_ROTATION_RAD).all() and found[0] else found
+    chi2 = [a.chi2 / spread2 + GATE * int((~a.agrees).sum()) for a in settled]
+    fit = replace(joined([agreement.fit for agreement in settled]), chi2=np.array(chi2))
+    return hypotheses_of(fit, np.array([_rms_px(a, corners, camera) for a in settled]))
 
 
-def _hypothesis(
-    agreement: Agreement, spread2: float, corners: BodyCorners, camera: Camera
-) -> PoseHypothesis | None:
-    """Return the pose as a hypothesis; in its chi2 a corner that disagrees counts as the gate."""
-    sightings = corners.agreeing(agreement.agrees)
-    chi2 = agreement.chi2 / spread2 + GATE * int((~agreement.agrees).sum())
-    (hypothesis,) = hypotheses_of(agreement.pose, np.array([chi2]), sightings, camera)
-    if hypothesis is None:
-        return None
-    error = residuals_px(agreement.pose, sightings, camera)[0][agreement.agrees.ravel()]
-    return replace(hypothesis, reprojection_rms_px=float(np.sqrt((error**2).sum(axis=1).mean())))
+def _rms_px(agreement: Agreement, corners: BodyCorners, camera: Camera) -> float:
+    """Return the reprojection error of the corners that agree."""
+    projected = camera.project(agreement.fit.poses.points(corners.p_body.reshape(1, -1, 3)))
+    error = (projected.reshape(corners.pixels.shape) - corners.pixels)[agreement.agrees]
+    return float(rms_px(error))
 
 
 def _noise_scale(chosen: Agreement) -> float:

@@ -18,11 +18,11 @@ from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 from tagmetry.markers import marker_corners_m
 from tagmetry.pose.ippe import ippe
-from tagmetry.pose.refine import Poses, Sightings, covariances, refine, residuals_px
+from tagmetry.pose.refine import Fit, Poses, Sightings, refine, residuals_px
 from tagmetry.pose.result import MarkerPose, PoseHypothesis
 from tagmetry.pose.whitening import whitening
 
-SAME_ROTATION_RAD = 1e-4  # two refinements that end this close found one minimum
+_SAME_MINIMUM = 0.1  # standard deviations between two refinements that ended in one minimum
 
 
 def estimate_pose(detection: Detection, camera: Camera, size_m: float) -> MarkerPose:
@@ -105,19 +105,25 @@ def ranked(found: Sequence[PoseHypothesis | None]) -> tuple[PoseHypothesis, ...]
     )
 
 
-def hypotheses_of(
-    poses: Poses, chi2: Array, seen: Sightings, camera: Camera
-) -> list[PoseHypothesis | None]:
-    """Return one hypothesis per pose, None where it is no pose; probabilities are still 1."""
-    covariance = covariances(poses, seen, camera)
-    squared = (residuals_px(poses, seen, camera) ** 2).sum(axis=-1)
-    rms_px = np.sqrt(squared.mean(axis=-1))
-    usable = np.isfinite(chi2) & np.isfinite(covariance).all(axis=(1, 2))
-    found: list[PoseHypothesis | None] = [None] * len(chi2)
+def hypotheses_of(fit: Fit, rms_px: Array) -> list[PoseHypothesis | None]:
+    """Return one hypothesis per pose; probabilities are still 1.
+
+    Args:
+        fit: n pairs of refined poses, the two of a pair in a row.
+        rms_px: Their reprojection errors, shape (2n,).
+
+    Returns:
+        2n hypotheses; None for what is no pose, and for the second of a pair that is the first.
+    """
+    covariance = fit.covariances
+    usable = np.isfinite(fit.chi2) & np.isfinite(covariance).all(axis=(1, 2))
+    is_same = fit[0::2].deviations_to(fit[1::2]) < _SAME_MINIMUM
+    usable[1::2] &= ~(usable[0::2] & is_same)
+    found: list[PoseHypothesis | None] = [None] * len(usable)
     if usable.any():
-        Ts_camera_body = poses[usable].transforms()
-        for n, T in zip(np.flatnonzero(usable), Ts_camera_body, strict=True):
-            found[n] = PoseHypothesis(T, covariance[n], float(rms_px[n]), float(chi2[n]), 1.0)
+        rows = np.flatnonzero(usable)
+        for n, T in zip(rows, fit.poses[rows].transforms(), strict=True):
+            found[n] = PoseHypothesis(T, covariance[n], float(rms_px[n]), float(fit.chi2[n]), 1.0)
     return found
 
 
@@ -126,18 +132,16 @@ def _minima(
 ) -> list[list[PoseHypothesis | None]]:
     """Refine both starts of every marker at once; None for a start that led nowhere new."""
     starts = Poses(start_R.reshape(-1, 3, 3), start_t.reshape(-1, 3))
-    poses, chi2 = refine(starts, seen.repeated(2), camera)
-    chi2 = distinct(poses, np.where(_faces_camera(poses), chi2, np.inf))
-    both = hypotheses_of(poses, chi2, seen.repeated(2), camera)
+    twice = seen.repeated(2)
+    fit = refine(starts, twice, camera)
+    fit = replace(fit, chi2=np.where(_faces_camera(fit.poses), fit.chi2, np.inf))
+    both = hypotheses_of(fit, rms_px(residuals_px(fit.poses, twice, camera)))
     return [both[n : n + 2] for n in range(0, len(both), 2)]
 
 
-def distinct(poses: Poses, chi2: Array) -> Array:
-    """Return chi2 (2n,), infinite for the second of a pair that ended in the first's minimum."""
-    same = poses[0::2].turns_rad(poses[1::2]) < SAME_ROTATION_RAD
-    twice = np.zeros(len(chi2), dtype=bool)
-    twice[1::2] = same & np.isfinite(chi2[0::2])
-    return np.where(twice, np.inf, chi2)
+def rms_px(residuals_px: Array) -> Array:
+    """Return the root mean square length of residuals (..., k, 2), shape (...)."""
+    return np.asarray(np.sqrt((residuals_px**2).sum(axis=-1).mean(axis=-1)))
 
 
 def _is_marker(corners_px: Array) -> BoolArray:

@@ -5,14 +5,18 @@ covariance, by Levenberg and Marquardt's method over the pose's change (translat
 vector) on the left in the camera frame. Works on a stack of independent poses at once.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.arrays import BoolArray
 from tagmetry.geometry.transforms import Rotation, cross_matrix
+
+Rows = slice | BoolArray | NDArray[np.intp]
 
 _SETTLED = 1e-10  # chi2 changes by less than this share: a hundred-thousandth of a deviation
 
@@ -31,7 +35,7 @@ class Sightings:
     pixels: Array
     whitening: Array
 
-    def __getitem__(self, chosen: BoolArray) -> "Sightings":
+    def __getitem__(self, chosen: Rows) -> "Sightings":
         """Return some of the sightings."""
         return Sightings(self.p_body[chosen], self.pixels[chosen], self.whitening[chosen])
 
@@ -53,7 +57,7 @@ class Poses:
     R_camera_body: Array
     t_camera_body: Array
 
-    def __getitem__(self, chosen: slice | BoolArray | list[int]) -> "Poses":
+    def __getitem__(self, chosen: Rows) -> "Poses":
         """Return some of the poses."""
         return Poses(self.R_camera_body[chosen], self.t_camera_body[chosen])
 
@@ -77,10 +81,10 @@ class Poses:
         turn = Rotation.from_rotvec(change[:, 3:]).as_matrix()
         return Poses(turn @ self.R_camera_body, self.t_camera_body + change[:, :3])
 
-    def where(self, condition: BoolArray, other: "Poses") -> "Poses":
-        """Return these poses where the condition (n,) holds, else the others."""
-        R = np.where(condition[:, None, None], self.R_camera_body, other.R_camera_body)
-        return Poses(R, np.where(condition[:, None], self.t_camera_body, other.t_camera_body))
+    def change_to(self, other: "Poses") -> Array:
+        """Return the changes that lead to other poses, shape (n, 6): the inverse of `moved`."""
+        turn = Rotation.from_matrix(other.R_camera_body @ np.swapaxes(self.R_camera_body, 1, 2))
+        return np.hstack([other.t_camera_body - self.t_camera_body, turn.as_rotvec()])
 
     def points(self, p_body: Array) -> Array:
         """Return points (n, k, 3) in the camera frame."""
@@ -89,7 +93,7 @@ class Poses:
 
 
 @dataclass(frozen=True)
-class _Fit:
+class Fit:
     """How n poses fit what was seen.
 
     Attributes:
@@ -104,44 +108,50 @@ class _Fit:
     error: Array
     chi2: Array
 
-    def where(self, condition: BoolArray, other: "_Fit") -> "_Fit":
-        """Return these fits where the condition (n,) holds, else the others."""
-        return _Fit(
-            self.poses.where(condition, other.poses),
-            np.where(condition[:, None, None], self.J, other.J),
-            np.where(condition[:, None, None], self.error, other.error),
-            np.where(condition, self.chi2, other.chi2),
-        )
+    def __getitem__(self, chosen: Rows) -> "Fit":
+        """Return some of the fits."""
+        return Fit(self.poses[chosen], self.J[chosen], self.error[chosen], self.chi2[chosen])
+
+    @property
+    def covariances(self) -> Array:
+        """(J^T C^-1 J)^-1, shape (n, 6, 6), m and rad, on the left in the camera frame."""
+        return _inverse(np.swapaxes(self.J, 1, 2) @ self.J)
+
+    def deviations_to(self, other: "Fit") -> Array:
+        """Return how many standard deviations of this fit lie between the poses, shape (n,)."""
+        change = self.poses.change_to(other.poses)[..., None]
+        with np.errstate(invalid="ignore", over="ignore"):
+            return np.asarray(np.linalg.norm(self.J @ change, axis=(1, 2)))
 
 
-def refine(
-    start: Poses, seen: Sightings, camera: Camera, max_iterations: int = 50
-) -> tuple[Poses, Array]:
-    """Return the poses that fit best and their chi2, shape (n,).
+def joined(fits: Sequence[Fit]) -> Fit:
+    """Return several fits of the same points as one."""
+    R = np.concatenate([fit.poses.R_camera_body for fit in fits])
+    t = np.concatenate([fit.poses.t_camera_body for fit in fits])
+    parts = ([fit.J for fit in fits], [fit.error for fit in fits], [fit.chi2 for fit in fits])
+    return Fit(Poses(R, t), *(np.concatenate(part) for part in parts))
+
+
+def refine(start: Poses, seen: Sightings, camera: Camera, max_iterations: int = 50) -> Fit:
+    """Return the poses that fit best.
 
     A pose whose points do not all project (behind the camera, beyond the lens) has chi2 infinite
     and stays where it is.
     """
     fit = _fit(start, seen, camera)
     damping = np.full(len(fit.chi2), 1e-3)
-    active = np.isfinite(fit.chi2)
+    rest = np.flatnonzero(np.isfinite(fit.chi2))
     for _ in range(max_iterations):
-        if not active.any():
+        if not rest.size:
             break
-        change = np.where(active[:, None], _step(fit, damping), 0.0)
-        tried = _fit(fit.poses.moved(change), seen, camera)
-        better = active & (tried.chi2 <= fit.chi2)
-        settled = np.abs(fit.chi2 - tried.chi2) <= _SETTLED * (1 + fit.chi2)
-        fit = tried.where(better, fit)
-        damping = np.where(better, damping / 10, damping * 10)
-        active &= ~settled & (damping < 1e12)
-    return fit.poses, fit.chi2
-
-
-def covariances(poses: Poses, seen: Sightings, camera: Camera) -> Array:
-    """Return (J^T C^-1 J)^-1, shape (n, 6, 6), m and rad, on the left in the camera frame."""
-    J = _fit(poses, seen, camera).J
-    return _inverse(np.swapaxes(J, 1, 2) @ J)
+        now = fit[rest]
+        tried = _fit(now.poses.moved(_step(now, damping[rest])), seen[rest], camera)
+        better = tried.chi2 <= now.chi2
+        settled = np.abs(now.chi2 - tried.chi2) <= _SETTLED * (1 + now.chi2)
+        fit = _updated(fit, rest[better], tried[better])
+        damping[rest] *= np.where(better, 0.1, 10.0)
+        rest = rest[~settled & (damping[rest] < 1e12)]
+    return fit
 
 
 def residuals_px(poses: Poses, seen: Sightings, camera: Camera) -> Array:
@@ -149,7 +159,7 @@ def residuals_px(poses: Poses, seen: Sightings, camera: Camera) -> Array:
     return camera.project(poses.points(seen.p_body)) - seen.pixels
 
 
-def _fit(poses: Poses, seen: Sightings, camera: Camera) -> _Fit:
+def _fit(poses: Poses, seen: Sightings, camera: Camera) -> Fit:
     arms = seen.p_body @ np.swapaxes(poses.R_camera_body, 1, 2)
     pixels, by_point = camera.project_with_jacobian(arms + poses.t_camera_body[:, None])
     by_pose = np.concatenate([by_point, -by_point @ cross_matrix(arms)], axis=-1)
@@ -157,10 +167,29 @@ def _fit(poses: Poses, seen: Sightings, camera: Camera) -> _Fit:
     error = seen.whitening @ (pixels - seen.pixels).reshape(len(arms), -1, 1)
     with np.errstate(over="ignore", invalid="ignore"):
         chi2 = (error**2).sum(axis=(1, 2))
-    return _Fit(poses, J, error, np.where(np.isfinite(chi2), chi2, np.inf))
+    return Fit(poses, J, error, np.where(np.isfinite(chi2), chi2, np.inf))
 
 
-def _step(fit: _Fit, damping: Array) -> Array:
+def _updated(fit: Fit, rows: Rows, new: Fit) -> Fit:
+    """Return the fits with some of them replaced."""
+    return Fit(
+        Poses(
+            _put(fit.poses.R_camera_body, rows, new.poses.R_camera_body),
+            _put(fit.poses.t_camera_body, rows, new.poses.t_camera_body),
+        ),
+        _put(fit.J, rows, new.J),
+        _put(fit.error, rows, new.error),
+        _put(fit.chi2, rows, new.chi2),
+    )
+
+
+def _put(array: Array, rows: Rows, new: Array) -> Array:
+    changed = array.copy()
+    changed[rows] = new
+    return changed
+
+
+def _step(fit: Fit, damping: Array) -> Array:
     """Return Levenberg and Marquardt's change of each pose (n, 6); zero where there is none."""
     J_transposed = np.swapaxes(fit.J, 1, 2)
     information = J_transposed @ fit.J
