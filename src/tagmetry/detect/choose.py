@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tagmetry.detect.decode import Match, Reading, has_border, nearest
+from tagmetry.detect.decode import Match, Reading, has_border, has_outline, nearest
 from tagmetry.detect.detection import Detection, Rejection
 from tagmetry.geometry import Array
 from tagmetry.markers import MarkerFamily
@@ -23,13 +23,13 @@ class Candidate:
         corners_px: Clockwise from the marker's own top left, shape (4, 2).
         match: The marker.
         is_inverted: It is printed white on black.
-        outline: How clearly the image steps across its sides, 0 to 1.
+        sharp_outline: How clearly the image steps across its sides, within a pixel, 0 to 1.
     """
 
     corners_px: Array
     match: Match
     is_inverted: bool
-    outline: float
+    sharp_outline: float
 
     @property
     def rank(self) -> tuple[int, float]:
@@ -38,7 +38,7 @@ class Candidate:
         Squares a few pixels off, or inside a wide border, read as well as the right one; the image
         steps across the right one's sides only.
         """
-        return self.match.hamming, -self.match.confidence * self.outline
+        return self.match.hamming, -self.match.confidence * self.sharp_outline
 
 
 @dataclass(frozen=True)
@@ -59,11 +59,9 @@ class Rules:
         """Return the marker that a square shows, or the reason why it shows none."""
         if reading is None:
             return "black and white cannot be told apart"
-        if not has_border(reading):
-            return f"only {reading.border_share:.0%} of its border reads black"
-        is_inverted = reading.contrast < 0
-        if is_inverted and not self.inverted:
-            return "white on black; look for inverted markers to accept it"
+        reason = self._not_a_marker(reading)
+        if reason is not None:
+            return reason
         matches = [nearest(reading, one) for one in families]
         match = min(matches, key=lambda m: (m.hamming - self._forgiven(m.family), m.hamming))
         if match.hamming > self._forgiven(match.family):
@@ -74,7 +72,17 @@ class Rules:
         if match.confidence < _LEAST_CONFIDENCE:
             return f"{match.family.name} id {match.id} is too unclear ({match.confidence:.2f})"
         upright_px = np.roll(corners_px, -match.quarters, axis=0)
-        return Candidate(upright_px, match, is_inverted, reading.outline)
+        return Candidate(upright_px, match, reading.contrast < 0, reading.sharp_outline)
+
+    def _not_a_marker(self, reading: Reading) -> str | None:
+        """Return why a square is no marker at all, whatever its bits say; None when it may be."""
+        if not has_border(reading):
+            return f"only {reading.border_share:.0%} of its border reads black"
+        if not has_outline(reading):
+            return "the image does not change across its sides; a wider border around it?"
+        if reading.contrast < 0 and not self.inverted:
+            return "white on black; look for inverted markers to accept it"
+        return None
 
     def _forgiven(self, family: MarkerFamily) -> int:
         return family.forgiven_bits if self.forgive_bits is None else self.forgive_bits

@@ -10,7 +10,7 @@ from functools import cache
 
 import numpy as np
 
-from tagmetry.detect.sample import bilinear, steps_across
+from tagmetry.detect.sample import bilinear, side_lengths, steps_across
 from tagmetry.geometry import Array, apply_homography, square_to_quad
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import Layout, MarkerFamily
@@ -18,6 +18,8 @@ from tagmetry.markers import Layout, MarkerFamily
 _LEAST_CONTRAST = 8.0  # grey values between black and white
 _BORDER_ERRORS = 0.2  # share of border cells that may read white
 _OUTSIDE_CELLS = 0.35  # how far outside the border white is looked for
+_EDGE_CELLS = 0.3  # how far inside and outside a side the image must differ
+_LEAST_OUTLINE = 0.3  # share of the contrast by which it must
 _SHARPEN = 0.25  # share of the difference to each neighbour that is added
 _TAPS = np.array([[-0.17, -0.17], [0.17, -0.17], [-0.17, 0.17], [0.17, 0.17]])  # cells
 
@@ -32,14 +34,16 @@ class Reading:
         border_share: Share of the border's cells that read black.
         contrast: White minus black, grey values; negative where the marker is inverted.
         border_margin: Mean clearness of the border's cells.
-        outline: How clearly the image steps across the sides, 0 to 1: 1 when the whole contrast lies
-            within a pixel of them everywhere.
+        sharp_outline: How clearly the image steps across the sides, 0 to 1; 1 when all of the
+            contrast lies within a pixel of them.
+        outline: The same within a good part of a cell.
     """
 
     margins: Array
     border_share: float
     contrast: float
     border_margin: float
+    sharp_outline: float
     outline: float
 
 
@@ -86,7 +90,10 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | 
     half = np.where(np.abs(contrast) < _LEAST_CONTRAST, np.nan, contrast / 2)
     margins = (np.concatenate([black, bits], axis=1) - (dark + bright) / 2) / half[:, None]
     count = len(black_at)
-    outline = np.clip(steps_across(grey, corners_px) / (2 * half[:, None]), 0, 1).mean(axis=1)
+    cell_px = side_lengths(corners_px).mean(axis=1) / layout.side_cells
+    reaches_px = (np.ones(len(corners_px)), _EDGE_CELLS * cell_px)
+    steps = (steps_across(grey, corners_px, reach_px) for reach_px in reaches_px)
+    near, far = (np.clip(step / (2 * half[:, None]), 0, 1).mean(axis=1) for step in steps)
     margins[:, count:] = margins @ _sharpening(layout).T
     return [
         None
@@ -96,7 +103,8 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | 
             float((margins[i, :count] < 0).mean()),
             float(contrast[i]),
             float(-np.clip(margins[i, :count], -1, 1).mean()),
-            float(outline[i]),
+            float(near[i]),
+            float(far[i]),
         )
         for i in range(len(corners_px))
     ]
@@ -124,6 +132,11 @@ def nearest(reading: Reading, family: MarkerFamily) -> Match:
 def has_border(reading: Reading) -> bool:
     """Say whether enough of the border's cells read black."""
     return reading.border_share >= 1 - _BORDER_ERRORS
+
+
+def has_outline(reading: Reading) -> bool:
+    """Say whether the image steps across the sides; it does not inside a wide border."""
+    return max(reading.outline, reading.sharp_outline) >= _LEAST_OUTLINE
 
 
 def border_centres(layout: Layout) -> Array:

@@ -104,7 +104,7 @@ def _below_midway(grey: GreyPixels, window_px: int) -> AnyPixels:
     window = np.ones((window_px, window_px), np.uint8)
     darkest, brightest = cv2.erode(grey, window), cv2.dilate(grey, window)
     midway = cv2.addWeighted(darkest, 0.5, brightest, 0.5, 0)
-    clear = cv2.compare(cv2.subtract(brightest, darkest), _CLEAR, cv2.CMP_GE)
+    _, clear = cv2.threshold(cv2.subtract(brightest, darkest), _CLEAR, 255, cv2.THRESH_BINARY)
     return cv2.bitwise_and(cv2.compare(grey, midway, cv2.CMP_LT), clear)
 
 

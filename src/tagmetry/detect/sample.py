@@ -5,16 +5,16 @@ import numpy as np
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 
-_STEP_PX = 1.0  # how far inside and outside a side the image is looked at
 _ALONG = np.linspace(0.05, 0.95, 10)
 
 
-def steps_across(grey: GreyPixels, corners_px: Array) -> Array:
+def steps_across(grey: GreyPixels, corners_px: Array, reach_px: Array) -> Array:
     """Return by how much the image is brighter just outside each side than just inside.
 
     Args:
         grey: 8-bit image.
         corners_px: Squares, clockwise, shape (n, 4, 2).
+        reach_px: How far outside and inside each square's sides is looked at, shape (n,).
 
     Returns:
         Grey values at ten places along each side, shape (n, 40).
@@ -23,9 +23,15 @@ def steps_across(grey: GreyPixels, corners_px: Array) -> Array:
     length_px = np.maximum(np.linalg.norm(along, axis=2, keepdims=True), 1e-9)
     outward = np.stack([along[..., 1], -along[..., 0]], axis=-1) / length_px
     on = corners_px[:, :, None] + _ALONG[:, None] * along[:, :, None]
-    off = _STEP_PX * outward[:, :, None]
+    off = reach_px[:, None, None, None] * outward[:, :, None]
     outside, inside = (bilinear(grey, at.reshape(-1, 2)) for at in (on + off, on - off))
     return (outside - inside).reshape(len(corners_px), 4 * len(_ALONG))
+
+
+def side_lengths(corners_px: Array) -> Array:
+    """Return the lengths of the sides of squares (n, 4, 2), shape (n, 4), pixels."""
+    sides = np.roll(corners_px, -1, axis=1) - corners_px
+    return np.asarray(np.linalg.norm(sides, axis=2))
 
 
 def bilinear(grey: GreyPixels, pixels: Array) -> Array:
