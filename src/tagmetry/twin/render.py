@@ -7,14 +7,14 @@ with a white quiet zone around it.
 Frames: `p_camera = T_camera_marker @ p_marker`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from tagmetry.camera import Camera
-from tagmetry.geometry import Array, Plane, RigidTransform
+from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.arrays import BoolArray, GreyPixels
 from tagmetry.markers import MountedMarker, family, marker_corners_m
 
@@ -84,11 +84,13 @@ def _draw(
     if box is None or T_camera_marker.rotation.as_matrix()[:, 2] @ outline.mean(axis=0) >= 0:
         return
     left, top, right, bottom = box
-    p_marker = _on_marker(left, top, right, bottom, T_camera_marker, camera, look.rays_per_side)
-    inside = (np.abs(p_marker[..., :2]) <= half_m).all(axis=-1)
-    white = _cells(p_marker, picture, layout.margin_cells, cell_m, marker.size_m)
-    colour = np.where(white, look.white, look.black)
-    share, ink = inside.mean(axis=2), np.where(inside, colour, 0.0).mean(axis=2)
+    share, ink = np.zeros((2, bottom - top, right - left))
+    for p_marker in _on_marker(box, T_camera_marker, camera, look.rays_per_side**2):
+        inside = (np.abs(p_marker) <= half_m).all(axis=-1)
+        white = _cells(p_marker, picture, layout.margin_cells, cell_m, marker.size_m)
+        share += inside
+        ink += np.where(inside, np.where(white, look.white, look.black), 0.0)
+    share, ink = share / look.rays_per_side**2, ink / look.rays_per_side**2
     window = grey[top:bottom, left:right]
     window[:] = ink + (1 - share) * window
 
@@ -105,30 +107,32 @@ def _box(outline_px: Array, camera: Camera) -> tuple[int, int, int, int] | None:
 
 
 def _on_marker(
-    left: int,
-    top: int,
-    right: int,
-    bottom: int,
-    T_camera_marker: RigidTransform,
-    camera: Camera,
-    rays_per_side: int,
-) -> Array:
-    """Return where the rays of a window of pixels meet the marker's plane, (h, w, rays, 3)."""
-    du, dv = _within_pixel(rays_per_side**2)
-    u = np.arange(left, right)[None, :, None] + du
-    v = np.arange(top, bottom)[:, None, None] + dv
-    rays = camera.unproject(np.stack(np.broadcast_arrays(u, v), axis=-1))
-    p_camera = Plane.of_frame(T_camera_marker).meet(np.zeros(3), rays)
+    box: tuple[int, int, int, int], T_camera_marker: RigidTransform, camera: Camera, count: int
+) -> Iterator[Array]:
+    """Give where each of `count` rays per pixel meets the marker's plane, (height, width, 2).
+
+    NaN where it does not. The lens is asked at the pixels' corners; between them directions are
+    linear to 1e-4 px.
+    """
+    left, top, right, bottom = box
+    grid = np.meshgrid(np.arange(left, right + 1) - 0.5, np.arange(top, bottom + 1) - 0.5)
     R_camera_marker = T_camera_marker.rotation.as_matrix()
-    return np.asarray((p_camera - T_camera_marker.translation) @ R_camera_marker)
+    rays = camera.unproject(np.stack(grid, axis=-1)) @ R_camera_marker
+    eye = -T_camera_marker.translation @ R_camera_marker
+    for x, y in zip(*_within_pixel(count), strict=True):
+        upper = (1 - x) * rays[:-1, :-1] + x * rays[:-1, 1:]
+        lower = (1 - x) * rays[1:, :-1] + x * rays[1:, 1:]
+        ray = (1 - y) * upper + y * lower
+        depth = np.where(ray[..., 2:] < 0, ray[..., 2:], np.nan)
+        yield eye[:2] - ray[..., :2] * (eye[2] / depth)
 
 
 def _within_pixel(count: int) -> tuple[Array, Array]:
-    """Return where rays pierce a pixel, -0.5 to 0.5, each of x and y taking `count` values.
+    """Return where rays pierce a pixel, 0 to 1, each of x and y taking `count` values.
 
     A square grid would place edges along the pixels' rows only to 1 / sqrt(count) px.
     """
-    even = (np.arange(count) + 0.5) / count - 0.5
+    even = (np.arange(count) + 0.5) / count
     return even, even[np.argsort(np.arange(count) * 0.6180339887498949 % 1)]
 
 
