@@ -23,7 +23,7 @@ def demo(
     size: Size = None,
     camera: CameraFile = None,
     out: Annotated[Path, typer.Option(help="Folder for what is written.")] = Path("demo-out"),
-    seed: Annotated[int, typer.Option(help="Seed of the rendered picture's noise.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the rendered picture's noise.")] = 0,
 ) -> None:
     """Print, render, detect, measure and compare; or do it on your own picture."""
     if image is not None:

@@ -1,8 +1,9 @@
 """`tagmetry detect`: markers and their poses from pictures, videos and cameras."""
 
-from collections.abc import Iterator
-from contextlib import ExitStack
+from collections.abc import Generator
+from contextlib import ExitStack, closing
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -41,6 +42,9 @@ def detect(  # noqa: PLR0913 (each argument is an option)
     explain: Annotated[
         bool, typer.Option("--explain", help="Say why squares were turned down.")
     ] = False,
+    marker: Annotated[
+        str | None, typer.Option(help="For .tum: whose trajectory, e.g. tag36h11:7.")
+    ] = None,
     cube: Annotated[bool, typer.Option("--cube", help="Draw a cube on every marker.")] = False,
     inverted: Inverted = False,
     forgive_bits: Annotated[
@@ -52,8 +56,7 @@ def detect(  # noqa: PLR0913 (each argument is an option)
     limit: Annotated[int | None, typer.Option(min=1, help="Stop after so many images.")] = None,
 ) -> None:
     """Find markers; with --size and --camera, measure where they are."""
-    from tagmetry.cli.report import explain_lines, result_lines
-    from tagmetry.record import format_line
+    from tagmetry.cli.report import explain_lines, json_line, result_lines
 
     task = measurement(
         family,
@@ -63,14 +66,19 @@ def detect(  # noqa: PLR0913 (each argument is an option)
         forgive_bits=forgive_bits,
         min_side_px=min_side,
     )
+    if out == "-":
+        json, out = True, None
+    if _lacks_poses(task, out):
+        typer.echo("tagmetry: no poses: they need both --size and --camera", err=True)
     with ExitStack() as stack:
-        takers = _Takers(stack, out, overlay, cube, task)
-        for image in _images(sources, task, limit):
+        takers = _Takers(stack, _results_writer(out, marker), overlay, cube, task)
+        images = stack.enter_context(closing(_images(sources, task)))
+        for image in islice(images, limit):
             result, rejections = _measured(task, image, explain)
             takers.take(image, result, rejections)
             if json:
-                typer.echo(format_line(result))
-            elif out != "-":
+                typer.echo(json_line(result, rejections if explain else None).encode())
+            else:
                 typer.echo("\n".join([*result_lines(result), *explain_lines(rejections)]))
 
 
@@ -80,19 +88,17 @@ class _Takers:
     def __init__(
         self,
         stack: ExitStack,
-        out: str | None,
+        results: "Writer[ImageResult] | None",
         overlay: Path | None,
         cube: bool,
         task: "Measurement",
     ) -> None:
-        from tagmetry.record import open_overlay, open_writer
+        from tagmetry.record import open_overlay
 
-        self._results: Writer[ImageResult] | None = None
+        self._results = stack.enter_context(results) if results is not None else None
         self._overlays: Writer[Image] | None = None
         self._cube = cube
         self._task = task
-        if out is not None:
-            self._results = stack.enter_context(open_writer(out))
         if overlay is not None:
             self._overlays = stack.enter_context(open_overlay(overlay))
 
@@ -125,25 +131,41 @@ def _measured(
     return task.result(image, findings.detections), findings.rejections
 
 
-def _images(sources: list[str], task: "Measurement", limit: int | None) -> Iterator["Image"]:
+def _lacks_poses(task: "Measurement", out: str | None) -> bool:
+    """Say whether poses are wanted and cannot be had."""
+    given = (task.sizes_m is not None) + (task.camera is not None)
+    return given == 1 or (given == 0 and out is not None and out.lower().endswith(".tum"))
+
+
+def _results_writer(out: str | None, marker: str | None) -> "Writer[ImageResult] | None":
+    """Return what writes the results; `marker` is of the form FAMILY:ID."""
+    from tagmetry.errors import InputError
+    from tagmetry.record import open_writer
+
+    if out is None:
+        return None
+    if marker is None:
+        return open_writer(out)
+    family, _, number = marker.rpartition(":")
+    if not (family and number.isascii() and number.isdigit()):
+        raise InputError(f"expected a marker like tag36h11:7, found {marker[:40]!r}")
+    return open_writer(out, marker=(family, int(number)))
+
+
+def _images(sources: list[str], task: "Measurement") -> Generator["Image"]:
     """Give the images of all sources one after another, numbered through."""
+    from tagmetry.cli.live_state import StateTeller
     from tagmetry.cli.progress import progress
     from tagmetry.sources import open_source
 
     count = 0
     for spec in sources:
-        with open_source(spec, camera=task.camera, on_state=_tell_state) as source:
+        with open_source(spec, camera=task.camera, on_state=StateTeller(spec)) as source:
             first = count
             for image in progress(source):
                 yield replace(image, sequence=first + image.sequence)
                 count = first + image.sequence + 1
-                if limit is not None and count >= limit:
-                    return
             _tell_warnings(source)
-
-
-def _tell_state(state: object) -> None:
-    typer.echo(f"tagmetry: {state}", err=True)
 
 
 def _tell_warnings(source: "Source") -> None:

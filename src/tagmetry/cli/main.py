@@ -3,6 +3,7 @@
 Exit codes: 0 done, 1 a fault of the program, 2 an input that cannot be used, 130 interrupted.
 """
 
+import io
 import os
 import sys
 
@@ -49,21 +50,35 @@ def _root(
 
 def main() -> None:
     """Run the command line and exit with its code."""
+    if isinstance(sys.stdout, io.TextIOWrapper):  # file names and units may not fit its encoding
+        sys.stdout.reconfigure(errors="backslashreplace")
     sys.exit(run(sys.argv[1:]))
 
 
 def run(arguments: list[str]) -> int:
     """Run one command and return its exit code."""
     try:
-        result = app(arguments, prog_name="tagmetry", standalone_mode=False)
+        _invoke(arguments)
+        sys.stdout.flush()
+    except typer.Exit as done:
+        return done.exit_code
     except TyperException as error:
         return _refuse(error.format_message())
-    except (InputError, OSError) as error:
-        return _refuse_os(error) if isinstance(error, OSError) else _refuse(str(error))
+    except InputError as error:
+        return _refuse(str(error))
+    except OSError as error:
+        return _refuse_os(error)
     except (KeyboardInterrupt, typer.Abort):
         sys.stderr.write("tagmetry: interrupted\n")
         return 130
-    return result if isinstance(result, int) else 0
+    return 0
+
+
+def _invoke(arguments: list[str]) -> None:
+    """Run one command; Typer's own runner would turn a closed pipe and Ctrl-C into exits."""
+    command = typer.main.get_command(app)
+    with command.make_context("tagmetry", list(arguments)) as context:
+        command.invoke(context)
 
 
 def _refuse_os(error: OSError) -> int:
@@ -76,5 +91,8 @@ def _refuse_os(error: OSError) -> int:
 
 
 def _refuse(text: str) -> int:
-    sys.stderr.write(f"tagmetry: {' '.join(text.split())}\n")
+    """Say why on one line; where the help was shown instead there is nothing to say."""
+    line = " ".join(text.split())
+    if line:
+        sys.stderr.write(f"tagmetry: {line}\n")
     return 2

@@ -9,12 +9,18 @@ if TYPE_CHECKING:
 
 
 def progress(source: "Source") -> Iterator["Image"]:
-    """Give a source's images, and show how far it is."""
-    if not sys.stderr.isatty() or source.length is None or source.length < 2:
+    """Give a source's images, and show how far it is where the results do not show it."""
+    is_watched = sys.stderr.isatty() and not sys.stdout.isatty()
+    if not is_watched or source.length is None or source.length < 2:
         yield from source
         return
     from rich.console import Console
-    from rich.progress import track
+    from rich.progress import Progress
 
-    console = Console(stderr=True)
-    yield from track(source, source.name, total=source.length, console=console, transient=True)
+    bar = Progress(
+        console=Console(stderr=True),
+        transient=True,
+        redirect_stdout=False,  # it would carry off the results
+    )
+    with bar:
+        yield from bar.track(source, total=source.length, description=source.name)

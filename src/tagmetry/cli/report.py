@@ -1,12 +1,13 @@
 """Results as lines of text for people: millimetres and degrees, with what they are sure of."""
 
+import json
 from collections.abc import Sequence
 
 import numpy as np
 
 from tagmetry.detect import Rejection
 from tagmetry.pose import MarkerPose
-from tagmetry.record import ImageResult, MarkerResult
+from tagmetry.record import ImageResult, MarkerResult, format_line
 
 _AMBIGUOUS = 0.05
 
@@ -18,6 +19,15 @@ def result_lines(result: ImageResult) -> list[str]:
     size = f"{result.width_px}x{result.height_px}"
     head = f"{result.source} [{result.sequence}] {size}: {found}"
     return [head, *map(_marker_line, result.markers)]
+
+
+def json_line(result: ImageResult, rejections: Sequence[Rejection] | None = None) -> str:
+    """Return an image as JSON; rejections, where they were asked for, as `rejected`."""
+    line = format_line(result)
+    if rejections is None:
+        return line
+    rejected = [{"reason": r.reason, "corners_px": r.corners_px.tolist()} for r in rejections]
+    return json.dumps({**json.loads(line), "rejected": rejected}, separators=(",", ":"))
 
 
 def explain_lines(rejections: Sequence[Rejection]) -> list[str]:

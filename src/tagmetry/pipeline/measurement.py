@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from tagmetry.camera import Camera, Image
 from tagmetry.detect import Detection, Detector, Findings
+from tagmetry.files.text import named_errors
 from tagmetry.pose import MarkerPose, estimate_poses
 from tagmetry.pose.marker import check_size
 from tagmetry.record import ImageResult
@@ -34,12 +35,14 @@ class Measurement:
 
     def measure(self, image: Image) -> ImageResult:
         """Return the markers of an image, with their poses where they can be known."""
-        camera = self._camera_of(image)
-        return self.result(image, self.detector.detect(image.pixels, camera))
+        with named_errors(image.source or "image"):
+            camera = self._camera_of(image)
+            return self.result(image, self.detector.detect(image.pixels, camera))
 
     def explain(self, image: Image) -> Findings:
         """Return the markers of an image, and the squares that were turned down."""
-        return self.detector.explain(image.pixels, self._camera_of(image))
+        with named_errors(image.source or "image"):
+            return self.detector.explain(image.pixels, self._camera_of(image))
 
     def result(self, image: Image, detections: Sequence[Detection]) -> ImageResult:
         """Return detections of an image with their poses."""
