@@ -235,3 +235,9 @@ def test_refuses_a_fisheye_with_five_coefficients() -> None:
 def test_refuses_coefficients_that_are_not_finite(lens: type, bad: float) -> None:
     with pytest.raises(InputError, match="coefficients must be finite"):
         lens((0.0, bad, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("distance_px", [1e4, 1e9, 1e100, 1e300])
+def test_fisheye_shows_nothing_at_pixels_far_outside(distance_px):
+    far = np.array([[distance_px, 0.0], [-distance_px, distance_px]])
+    assert np.isnan(CAMERAS["fisheye"].unproject(far)).all()

@@ -150,7 +150,7 @@ class FisheyeLens:
 
     def straighten(self, bent: Array) -> Array:
         """Return unit rays (..., 3) of distorted normalised coordinates (..., 2)."""
-        radius = np.linalg.norm(bent, axis=-1)
+        radius = np.hypot(bent[..., 0], bent[..., 1])
         angle = self._angle_of(radius)
         with np.errstate(divide="ignore", invalid="ignore"):
             aside = np.where(radius > 0, np.sin(angle) / radius, 1.0)
@@ -187,7 +187,8 @@ class FisheyeLens:
         angle = (low + high) / 2
         for _ in range(3):
             slope = np.maximum(self._slope(angle), 1e-6)
-            angle = angle - (self._radius(angle) - radius) / slope
+            step = (self._radius(angle) - radius) / slope
+            angle = np.clip(angle - step, 0.0, self.fold_angle_rad)
         reached = (np.abs(self._radius(angle) - radius) < 1e-9) & (angle < self.fold_angle_rad)
         return np.where(reached, angle, np.nan)
 
