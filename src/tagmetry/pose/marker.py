@@ -22,6 +22,7 @@ from tagmetry.pose.refine import Fit, Poses, Sightings, refine, residuals_px
 from tagmetry.pose.result import MarkerPose, PoseHypothesis
 from tagmetry.pose.whitening import whitening
 
+_FARTHEST_PX = 1e9  # no image is so large, and its square is still a number
 _SAME_MINIMUM = 0.1  # standard deviations between two refinements that ended in one minimum
 
 
@@ -79,6 +80,8 @@ def solve(
         sizes_m: Shape (n,).
         camera: Intrinsics.
     """
+    within = np.abs(corners_px) < _FARTHEST_PX
+    corners_px = np.where(within, corners_px, np.nan)
     seen = Sightings(marker_corners_m(sizes_m), corners_px, whitening(covariances_px2))
     rays = camera.unproject(corners_px)
     possible = _is_marker(corners_px)
