@@ -37,8 +37,6 @@ def flips(tilt_deg, side_px, sd_px, count, seed=0):
     found = solve(corners, noise, np.full(count, SIZE_M), PINHOLE)
     normals = rotations.as_matrix()[:, :2, 2]
     best_normals = np.stack([h[0].T_camera_marker.as_matrix()[:2, 2] for h in found])
-        h[0].T_camera_marker.as_matrix()[:2, 2] @ n < 0 for h, n in zip(found, normals, strict=True)
-    ]
     two = np.array([len(h) == 2 for h in found])
     ambiguity = np.array([1 - h[0].probability for h in found])
     return (best_normals * normals).sum(axis=1) < 0, ambiguity, two
