@@ -1,6 +1,7 @@
 """Runs the command as its own process, as a shell does."""
 
 import os
+import resource
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -30,3 +31,12 @@ def tagmetry(*arguments: object, **environment: str) -> subprocess.CompletedProc
         timeout=120,
         env={**os.environ, **environment},
     )
+
+
+def usage_of(*arguments: object) -> tuple[int, resource.struct_rusage]:
+    """Run the command in silence; return its exit code and what it used."""
+    silent = [(os.POSIX_SPAWN_OPEN, fd, os.devnull, os.O_WRONLY, 0) for fd in (1, 2)]
+    command = arguments_of(*arguments)
+    process = os.posix_spawn(sys.executable, command, os.environ, file_actions=silent)
+    _, status, usage = os.wait4(process, 0)
+    return os.waitstatus_to_exitcode(status), usage

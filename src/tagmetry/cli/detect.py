@@ -56,6 +56,7 @@ def detect(  # noqa: PLR0913 (each argument is an option)
     limit: Annotated[int | None, typer.Option(min=1, help="Stop after so many images.")] = None,
 ) -> None:
     """Find markers; with --size and --camera, measure where they are."""
+    from tagmetry.cli.interrupts import held_back
     from tagmetry.cli.report import explain_lines, json_line, result_lines
 
     task = measurement(
@@ -74,12 +75,13 @@ def detect(  # noqa: PLR0913 (each argument is an option)
         takers = _Takers(stack, _results_writer(out, marker), overlay, cube, task)
         images = stack.enter_context(closing(_images(sources, task)))
         for image in islice(images, limit):
-            result, rejections = _measured(task, image, explain)
-            takers.take(image, result, rejections)
-            if json:
-                typer.echo(json_line(result, rejections if explain else None).encode())
-            else:
-                typer.echo("\n".join([*result_lines(result), *explain_lines(rejections)]))
+            with held_back():
+                result, rejections = _measured(task, image, explain)
+                takers.take(image, result, rejections)
+                if json:
+                    typer.echo(json_line(result, rejections if explain else None).encode())
+                else:
+                    typer.echo("\n".join([*result_lines(result), *explain_lines(rejections)]))
 
 
 class _Takers:

@@ -62,12 +62,15 @@ def run(arguments: list[str]) -> int:
         sys.stdout.flush()
     except typer.Exit as done:
         return done.exit_code
-    except TyperException as error:
-        return _refuse(error.format_message())
-    except InputError as error:
-        return _refuse(str(error))
+    except (TyperException, InputError) as error:
+        is_usage = isinstance(error, TyperException)
+        return _refuse(error.format_message() if is_usage else str(error))
     except OSError as error:
         return _refuse_os(error)
+    except SystemExit as exit_:
+        if not isinstance(exit_.__context__, BrokenPipeError):
+            raise
+        return 0  # how rich leaves when nobody reads the help
     except (KeyboardInterrupt, typer.Abort):
         sys.stderr.write("tagmetry: interrupted\n")
         return 130
