@@ -144,7 +144,7 @@ def _reweighted(pose: Poses, corners: BodyCorners, camera: Camera) -> Poses:
         before, widening = widening, np.sqrt(1 + distances2 / (_CAUCHY * spread2))
         if (np.abs(widening - before) <= _STEADY * widening).all():
             break
-        pose = refine(pose, corners.sightings(widening), camera, max_iterations=3).poses
+        pose = refine(pose, corners.sightings(widening), camera, max_iterations=1).poses
     return pose
 
 
