@@ -19,7 +19,7 @@ def camera_table(camera: Camera) -> dict[str, object]:
         "lens": camera.lens.kind,
         "coefficients": camera.lens.coefficients,
         "standard_deviations": _deviations(camera),
-        "view_deg": _view_deg(camera),
+        "view_deg": [angle if np.isfinite(angle) else None for angle in _view_deg(camera)],
         "zoom": camera.zoom,
         "focus": camera.focus,
         "provenance": camera.provenance,

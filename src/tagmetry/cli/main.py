@@ -63,8 +63,7 @@ def run(arguments: list[str]) -> int:
     except typer.Exit as done:
         return done.exit_code
     except (TyperException, InputError) as error:
-        is_usage = isinstance(error, TyperException)
-        return _refuse(error.format_message() if is_usage else str(error))
+        return _refuse(error.format_message() if isinstance(error, TyperException) else str(error))
     except OSError as error:
         return _refuse_os(error)
     except SystemExit as exit_:

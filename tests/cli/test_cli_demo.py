@@ -1,0 +1,91 @@
+"""`tagmetry demo`: measured against the truth of the scene, and what it writes."""
+
+import json
+import os
+import re
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from cli_command import Scene
+
+from tagmetry.cli.main import run
+from tagmetry.files import load_camera
+from tagmetry.pipeline.demonstration import demonstrate
+from tagmetry.record import read_results
+from tagmetry.twin import showcase
+
+DATA = Path(os.environ.get("TAGMETRY_DATA", Path(__file__).parents[3] / "shared" / "data"))
+WRITTEN = ["camera.yaml", "markers.csv", "markers.jsonl", "overlay.png", "sheet.pdf"]
+needs_data = pytest.mark.skipif(not DATA.is_dir(), reason=f"no pictures in {DATA}")
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_every_marker_lies_within_its_stated_deviations(tmp_path: Path) -> None:
+    done = [demonstrate(tmp_path, np.random.default_rng(seed)) for seed in range(5)]
+    for one in done:
+        assert [c.id for c in one.comparisons] == [0, 1, 2, 3, 10, 13, 14]
+        assert one.missing == ()
+        assert max(c.distance for c in one.comparisons) < 4.5
+        assert max(np.linalg.norm(c.error_m) for c in one.comparisons) < 0.0005
+    distances = np.array([[c.distance for c in one.comparisons] for one in done])
+    assert 0.3 < (distances**2).mean() < 9  # six when the covariance is exact
+
+
+def test_writes_what_it_says_twice(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    folder = tmp_path / "new" / "demo"
+    for _ in range(2):
+        assert run(["demo", "--out", str(folder)]) == 0
+        out = capsys.readouterr().out
+        told = out.splitlines()[-1].removeprefix("wrote ").split(", ")
+        assert sorted(Path(name).name for name in told) == WRITTEN
+        assert names(folder) == WRITTEN
+        assert "7 markers measured in a rendered picture" in out
+    assert load_camera(folder / "camera.yaml").focal_px == showcase.CAMERA.focal_px
+    (result,) = read_results(folder / "markers.jsonl")
+    assert len(result.markers) == 7
+    assert cv2.imread(str(folder / "overlay.png")).shape == (720, 1280, 3)
+    assert (folder / "sheet.pdf").read_bytes().startswith(b"%PDF")
+    assert len((folder / "markers.csv").read_text().splitlines()) == 8
+
+
+def test_a_folder_that_is_a_file_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    (tmp_path / "file").write_text("")
+    assert run(["demo", "--out", str(tmp_path / "file")]) == 2
+    assert capsys.readouterr().err == f"tagmetry: {tmp_path / 'file'}: File exists\n"
+
+
+def test_measures_a_picture_of_ones_own(
+    scene: Scene, tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    given = ["--image", scene.picture, "--camera", scene.camera, "--size", "12cm"]
+    assert run(["demo", *given, "--out", str(tmp_path / "own")]) == 0
+    out = capsys.readouterr().out
+    assert [int(i) for i in re.findall(r"tag36h11 (\d+) ", out)] == list(scene.ids)
+    assert out.count("z ") == 7
+    assert names(tmp_path / "own") == ["markers.csv", "markers.jsonl", "overlay.png"]
+
+
+@needs_data
+def test_a_real_picture_with_markers(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    picture = DATA / "yaw_sweep" / "test_image_multiple_01.png"
+    assert run(["demo", "--image", str(picture), "--out", str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    line = json.loads((tmp_path / "markers.jsonl").read_text())
+    assert {m["family"] for m in line["markers"]} == {"tag36h11"}
+    assert len(line["markers"]) >= 6
+    assert "Where they are in space needs --size and --camera." in out
+
+
+@needs_data
+def test_a_real_picture_without_markers(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    picture = DATA / "marker_free" / "100007.jpg"
+    assert run(["demo", "--image", str(picture), "--out", str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert "no markers" in out
+    assert f"tagmetry doctor {picture}" in out
+    assert json.loads((tmp_path / "markers.jsonl").read_text())["markers"] == []
