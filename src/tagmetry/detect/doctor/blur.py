@@ -1,5 +1,7 @@
 """Is the image as a whole sharp enough?"""
 
+import numpy as np
+
 from tagmetry.detect.doctor.advice import Advice
 from tagmetry.detect.doctor.edges import sharpest_edges_px
 from tagmetry.detect.doctor.evidence import Evidence, detections_of
@@ -7,6 +9,7 @@ from tagmetry.detect.doctor.unread import blur_px, blur_words
 
 _SOFT_PX = 2.0
 _VERY_SOFT_PX = 3.0
+_MOVED = 4.0  # ratio of the blurs of two directions
 
 
 def check_blur(evidence: Evidence) -> tuple[Advice, ...]:
@@ -25,21 +28,31 @@ def _of_markers(evidence: Evidence) -> tuple[Advice, ...]:
         Advice(
             "hint",
             "soft edges",
-            f"the markers' edges are blurred by {kind}; corners and distant markers suffer",
+            f"the markers' edges are blurred by {kind}; corners suffer",
             remedy,
         ),
     )
 
 
 def _of_image(evidence: Evidence) -> tuple[Advice, ...]:
-    sharpest_px = sharpest_edges_px(evidence.grey)
-    if sharpest_px is None or sharpest_px < _VERY_SOFT_PX:
+    blurs_px = sharpest_edges_px(evidence.grey)
+    if np.isnan(blurs_px).all():
         return ()
-    return (
-        Advice(
-            "hint",
-            "blurred",
-            f"even the sharpest edges of the picture are blurred by about {sharpest_px:.0f} px or more",
-            "focus by hand on the marker; a shorter exposure if anything moves",
-        ),
-    )
+    least_px, most_px = float(np.nanmin(blurs_px)), float(np.nanmax(blurs_px))
+    if least_px >= _VERY_SOFT_PX:
+        return (
+            _blurred(f"even the sharpest edges are blurred by about {least_px:.0f} px or more"),
+        )
+    if most_px >= max(_VERY_SOFT_PX, _MOVED * least_px):
+        return (
+            _blurred(
+                f"edges of one direction are blurred by about {most_px:.0f} px, of another by "
+                f"{least_px:.1f} px: something may have moved"
+            ),
+        )
+    return ()
+
+
+def _blurred(explanation: str) -> Advice:
+    remedy = "focus by hand on the marker; a shorter exposure if anything moves"
+    return Advice("hint", "blurred", explanation, remedy)

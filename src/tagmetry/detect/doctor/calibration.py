@@ -3,6 +3,8 @@
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
 from tagmetry.camera import Camera, distortion_reach
 from tagmetry.detect.doctor.advice import Advice
 
@@ -57,8 +59,9 @@ def _conversion(camera: Camera, width_px: int, height_px: int) -> str:
     across, down = width_px / camera.width_px, height_px / camera.height_px
     if abs(across / down - 1) < _SAME_RATIO:
         return (
-            f"if the camera scales its full image: a factor of {across:.4g}, tagmetry camera convert "
-            f"CAMERA OUT --scale-to {width_px}x{height_px}; if it crops: calibrate at this size"
+            f"if the camera scales its full image: a factor of {across:.4g}, tagmetry camera "
+            f"convert CAMERA OUT --scale-to {width_px}x{height_px}; if it crops: calibrate at "
+            "this size"
         )
     if abs(width_px / camera.height_px / (height_px / camera.width_px) - 1) < _SAME_RATIO:
         return "the sides are swapped: take the picture unturned, or turn the intrinsics too"
@@ -69,7 +72,7 @@ def _conversion(camera: Camera, width_px: int, height_px: int) -> str:
 
 
 def _center(camera: Camera) -> Iterator[Advice]:
-    if not camera.contains(camera.center_px):
+    if not camera.contains(np.array(camera.center_px)):
         cx, cy = camera.center_px
         yield Advice(
             "problem",

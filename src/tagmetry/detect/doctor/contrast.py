@@ -6,10 +6,10 @@ from tagmetry.detect.detector import Detector
 from tagmetry.detect.doctor.advice import Advice
 from tagmetry.detect.doctor.evidence import Evidence
 from tagmetry.detect.doctor.groups import Group, grouped
-from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 
 _DARK, _BRIGHT = 60.0, 190.0  # nearly all grey values below, above
+_PERCENTILES = (0.01, 1, 99, 99.99)
 _FLAT = 40.0  # grey values between the darkest and the brightest percent
 _BURNT_SHARE = 0.3
 _BURNT = 254
@@ -19,8 +19,8 @@ def check_contrast(evidence: Evidence) -> tuple[Advice, ...]:
     """Judge the exposure of an image in which nothing is found."""
     if evidence.found or evidence.others:
         return ()
-    low, high = np.percentile(evidence.grey, [1, 99])
-    words = _words(float(low), float(high))
+    lowest, low, high, highest = (float(v) for v in np.percentile(evidence.grey, _PERCENTILES))
+    words = _words(low, high)
     if words is None:
         return _burnt(evidence.grey)
     title, remedy = words
@@ -31,6 +31,8 @@ def check_contrast(evidence: Evidence) -> tuple[Advice, ...]:
         return (
             Advice("problem", title, f"{numbers}; stretched to full contrast: {shown}", remedy),
         )
+    if _words(lowest, highest) is None:  # a small marker may stand in a plain image
+        return ()
     return (Advice("hint", title, f"{numbers}; stretching them shows no marker either", remedy),)
 
 
@@ -38,10 +40,10 @@ def stretched(grey: GreyPixels) -> GreyPixels:
     """Return an image with its darkest value at 0 and its brightest at 255, lightly smoothed."""
     import cv2
 
-    smooth: Array = cv2.GaussianBlur(grey.astype(np.float64), (3, 3), 0.8)
+    smooth = cv2.GaussianBlur(grey.astype(np.float64), (3, 3), 0.8)
     low, high = np.percentile(smooth, [0.1, 99.9])
     scaled = (smooth - low) * (255 / max(high - low, 1e-9))
-    return np.clip(np.rint(scaled), 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(np.rint(scaled), 0, 255), dtype=np.uint8)
 
 
 def _words(low: float, high: float) -> tuple[str, str] | None:
@@ -68,7 +70,7 @@ def _burnt(grey: GreyPixels) -> tuple[Advice, ...]:
         Advice(
             "hint",
             "burnt out",
-            f"{share:.0%} of the pixels are at full white: light may spread over thin black borders",
+            f"{share:.0%} of the pixels are fully white: light may spread over thin black borders",
             "if this is a photograph: a shorter exposure or less gain",
         ),
     )

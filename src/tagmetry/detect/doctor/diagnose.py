@@ -13,6 +13,7 @@ from tagmetry.detect.doctor.evidence import Evidence, detections_of
 from tagmetry.detect.doctor.found import check_found
 from tagmetry.detect.doctor.mirrored import check_mirrored
 from tagmetry.detect.doctor.nothing import nothing_there
+from tagmetry.detect.doctor.perhaps import check_perhaps
 from tagmetry.detect.doctor.present import check_present
 from tagmetry.detect.doctor.quiet_zone import check_quiet_zone
 from tagmetry.detect.doctor.unread import check_unread
@@ -23,7 +24,7 @@ from tagmetry.markers import MarkerFamily
 _SEVERITIES = ("problem", "hint", "ok")
 _OF_FOUND = (check_found, check_duplicates)
 _PROVING = (check_present, check_mirrored, check_quiet_zone)
-_LIKELY = (check_contrast, check_unread, check_blur)
+_LIKELY = (check_contrast, check_unread, check_blur, check_perhaps)
 
 
 def diagnose(

@@ -12,14 +12,14 @@ def check_duplicates(evidence: Evidence) -> tuple[Advice, ...]:
 
 def _of_group(group: Group) -> tuple[Advice, ...]:
     counts = {one: sum(d.id == one for d in group.detections) for one in group.ids}
-    repeated = [f"id {one} {count} times" for one, count in counts.items() if count > 1]
+    repeated = [f"id {one} ({count} times)" for one, count in counts.items() if count > 1]
     if not repeated:
         return ()
     return (
         Advice(
             "hint",
             "an id more than once",
-            f"{group.family.name}: {', '.join(repeated)}; two prints of one marker, or a reflection",
+            f"{group.family.name}: {', '.join(repeated)}; two prints, or a reflection",
             "where positions count, let every id exist once; cover shiny surfaces",
         ),
     )

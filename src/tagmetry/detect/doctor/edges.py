@@ -1,6 +1,7 @@
 """How wide are edges? The standard deviation of the blur, in pixels.
 
-An edge of contrast c blurred by a Gaussian of deviation s has the steepest slope c / (s sqrt(2 pi)).
+An edge of contrast c blurred by a Gaussian of deviation s has the steepest slope
+c / (s sqrt(2 pi)).
 """
 
 import cv2
@@ -46,30 +47,40 @@ def side_normals(corners_px: Array) -> Array:
 def principal_blurs_px(blurs_px: Array, normals: Array) -> tuple[float, float]:
     """Return the blur along the direction where it is widest, and across it.
 
-    The variance of the blur along a normal n is n^T S n; S is fitted to all sides.
+    The variance of the blur along a normal n is n^T S n; the smallest S that fits all sides is
+    taken, since two directions of sides do not tell how the blur lies between them.
 
     Args:
         blurs_px: Shape (n,).
         normals: Shape (n, 2).
     """
     x, y = normals.T
-    design = np.stack([x * x, y * y, 2 * x * y], axis=1)
-    xx, yy, xy = np.linalg.lstsq(design, blurs_px**2, rcond=1e-3)[0]
+    design = np.stack([x * x, y * y, np.sqrt(2) * x * y], axis=1)
+    xx, yy, xy = np.linalg.lstsq(design, blurs_px**2, rcond=0.3)[0]
+    xy = xy / np.sqrt(2)
     small, large = np.sqrt(np.maximum(np.linalg.eigvalsh([[xx, xy], [xy, yy]]), 0))
     return float(large), float(small)
 
 
-def sharpest_edges_px(grey: GreyPixels) -> float | None:
-    """Return the blur of the sharpest few edges of an image, None where it has no edges."""
+def sharpest_edges_px(grey: GreyPixels) -> Array:
+    """Return the blur of the sharpest few edges of an image, by the direction of their slope.
+
+    Returns:
+        Slopes around 0, 45, 90 and 135 degrees, shape (4,), px; NaN where there are too few edges.
+    """
     smooth = cv2.GaussianBlur(grey, (3, 3), 0.6)
     window = np.ones((_WINDOW_PX, _WINDOW_PX), np.uint8)
     contrast = cv2.dilate(smooth, window).astype(np.float64) - cv2.erode(smooth, window)
     slope_y, slope_x = np.gradient(smooth.astype(np.float64))
     slope = np.hypot(slope_x, slope_y)
+    octant = np.rint(np.arctan2(slope_y, slope_x) / (np.pi / 4)) % 4
     edges = (contrast >= _LEAST_CONTRAST) & (slope > 0)
-    if edges.sum() < _LEAST_PIXELS:
-        return None
-    return float(np.percentile(contrast[edges] / (_ROOT * slope[edges]), 0.5))
+    blurs = [
+        (contrast / (_ROOT * np.maximum(slope, 1e-9)))[edges & (octant == k)] for k in range(4)
+    ]
+    return np.array(
+        [np.percentile(blur, 0.5) if len(blur) >= _LEAST_PIXELS else np.nan for blur in blurs]
+    )
 
 
 def _profiles(grey: GreyPixels, a: Array, b: Array, offsets_px: Array) -> Array:
@@ -79,7 +90,11 @@ def _profiles(grey: GreyPixels, a: Array, b: Array, offsets_px: Array) -> Array:
     normal = np.array([-direction[1], direction[0]])
     places = (a + along * (b - a) + offsets_px[None, :, None] * normal).astype(np.float32)
     values = cv2.remap(
-        grey.astype(np.float32), places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
+        grey.astype(np.float32),
+        places[..., 0],
+        places[..., 1],
+        cv2.INTER_LINEAR,
+        borderMode=cv2.BORDER_REPLICATE,
     )
     return np.asarray(values, dtype=np.float64)
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from tagmetry.detect.detection import Detection, Findings
 from tagmetry.detect.detector import Detector
-from tagmetry.detect.doctor.groups import Group, every_family, grouped
+from tagmetry.detect.doctor.groups import Group, every_family, grouped, other_border
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import MarkerFamily
 
@@ -41,8 +41,22 @@ class Evidence:
     @cached_property
     def found(self) -> tuple[Group, ...]:
         """Markers of the wanted families; where none are named, those that are no accident."""
-        groups = grouped(self.findings.detections, self.families)
-        return groups if self.wanted else tuple(group for group in groups if group.is_sure())
+        if not self.wanted:
+            groups = grouped(self.findings.detections, self.families)
+            return tuple(group for group in groups if group.is_sure())
+        names = {one.name for one in self.wanted}
+        own = [one for one in self._in_both_borders if one.family in names]
+        return grouped(own, self.wanted)
+
+    @cached_property
+    def _in_both_borders(self) -> tuple[Detection, ...]:
+        """What is found where a border of the other width may win a place."""
+        if not self.findings.detections:
+            return ()
+        known = {one.name for one in self.wanted}
+        twins = [other for one in self.wanted if (other := other_border(one))]
+        new = [one for one in twins if one.name not in known]
+        return Detector((*self.wanted, *new)).detect(self.grey)
 
     @cached_property
     def present(self) -> tuple[Group, ...]:

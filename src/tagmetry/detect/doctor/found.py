@@ -38,5 +38,6 @@ def _near_the_limit(group: Group) -> Advice:
         f"{few} of {len(px_per_cell)} markers of {group.family.name} have less than "
         f"{_FEW_PX_PER_CELL:g} pixels per cell (the smallest {px_per_cell.min():.1f}): "
         "they may be lost in the next picture",
-        f"come up to {_FEW_PX_PER_CELL / px_per_cell.min():.1f} times nearer, zoom in, print larger, or take more resolution",
+        f"come up to {_FEW_PX_PER_CELL / px_per_cell.min():.1f} times nearer, zoom in, print "
+        "larger, or take more resolution",
     )

@@ -8,6 +8,7 @@ summed over the ids.
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import log10
 
 import numpy as np
 
@@ -53,7 +54,7 @@ class Group:
 
     def is_sure(self, tries: int = 1) -> bool:
         """Say whether it is no accident, after some number of tries to find one."""
-        return self.evidence - np.log10(max(1, tries)) >= _SURE
+        return self.evidence - log10(max(1, tries)) >= _SURE
 
     def __str__(self) -> str:
         """Name the family and its ids."""
@@ -87,6 +88,14 @@ def every_family() -> tuple[MarkerFamily, ...]:
     names = [name for name in family_names() if not name.endswith(("_50", "_100", "_250"))]
     plain = [family(name) for name in names]
     return (*plain, *(one.with_border(2) for one in plain))
+
+
+def other_border(one: MarkerFamily) -> MarkerFamily | None:
+    """Return the family with a border of two cells instead of one or the reverse, if there is."""
+    plain, _, border = one.name.partition("_border")
+    if not border and one.layout.border_cells == 1:
+        return one.with_border(2)
+    return family(plain) if plain in family_names() else None
 
 
 def _smallest(found: MarkerFamily, highest_id: int) -> MarkerFamily:

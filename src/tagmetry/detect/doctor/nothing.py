@@ -14,8 +14,8 @@ def nothing_there(evidence: Evidence) -> Advice:
         "problem",
         "no marker-like squares",
         f"{_squares(evidence)} (looked for: {_looked_for(evidence)})",
-        f"if there is a marker: its sides must be {least_px:.0f} px or longer, flat, unobstructed, and "
-        "with white all around; a family of your own must be named",
+        f"if there is a marker: its sides must be {least_px:.0f} px or longer, flat, "
+        "unobstructed, and with white all around; a family of your own must be named",
     )
 
 

@@ -1,20 +1,14 @@
 """Are markers there that were not asked for: another family, another border, inverted print?"""
 
-from collections.abc import Iterator
-
 from tagmetry.detect.doctor.advice import Advice, Severity
 from tagmetry.detect.doctor.evidence import Evidence
 from tagmetry.detect.doctor.groups import Group
-
-_CLEAR = 0.8
-_LARGE_PX = 40.0
 
 
 def check_present(evidence: Evidence) -> tuple[Advice, ...]:
     """Name the markers in the image that the detector was not asked for."""
     severity: Severity = "hint" if evidence.found else "problem"
-    others = tuple(_advice(group, evidence, severity) for group in evidence.others)
-    return others or tuple(_perhaps(evidence))
+    return tuple(_advice(group, evidence, severity) for group in evidence.others)
 
 
 def _advice(group: Group, evidence: Evidence, severity: Severity) -> Advice:
@@ -49,7 +43,7 @@ def _border(group: Group, asked_cells: int, severity: Severity) -> Advice:
         severity,
         "another width of border",
         f"{group}: the black border is {_cells(cells)} wide; asked for was {_cells(asked_cells)} "
-        "(Kalibr prints two, most others one)",
+        "(Kalibr prints two, most others one); read as asked, corners may lie inside the border",
         f"--family {group.family.name}; the size is then the side of the whole black square",
     )
 
@@ -67,19 +61,3 @@ def _differ_in_border(one: str, other: str) -> bool:
 def _kind(name: str) -> str:
     """Return what subsets of one dictionary have in common: `4x4` of `4x4_50`."""
     return name.partition("_")[0] if name[:1].isdigit() else name
-
-
-def _perhaps(evidence: Evidence) -> Iterator[Advice]:
-    """A single clear, large marker of a small family may be one, or may be texture."""
-    if evidence.found:
-        return
-    for group in evidence.present:
-        clear = [d for d in group.detections if d.confidence > _CLEAR and d.side_px > _LARGE_PX]
-        if clear:
-            look = " printed white on black" if group.is_inverted else ""
-            yield Advice(
-                "hint",
-                "perhaps another family",
-                f"{group}{look} may be there; texture passes for so small a code now and then",
-                f"if it is one: --family {group.family.name}",
-            )

@@ -23,6 +23,7 @@ _CELL_PX = 10
 _MARGIN_CELLS = 2
 _MOST_GUESSES = 60
 _PAD_PX = 20
+_LEAST_CHANCE = 1e-5
 _CLOSINGS_PX = (3, 7, 15, 31, 61)
 
 
@@ -34,8 +35,9 @@ def check_quiet_zone(evidence: Evidence) -> tuple[Advice, ...]:
     )
     if at_edge or known:
         return at_edge
-    guesses = list(_guesses(evidence))[:_MOST_GUESSES]
-    painted = [d for quad in guesses for d in _painted(evidence, quad)]
+    families = _telling(evidence.families)
+    guesses = list(_guesses(evidence, families))[:_MOST_GUESSES] if families else []
+    painted = [d for quad in guesses for d in _painted(evidence.grey, quad, families)]
     return _advice("what lies around is too dark", painted, evidence, len(guesses))
 
 
@@ -68,20 +70,38 @@ def _moved(detection: Detection, by_px: float) -> Detection:
     return replace(detection, corners_px=detection.corners_px + by_px)
 
 
-def _guesses(evidence: Evidence) -> Iterator[Array]:
+def _telling(families: Sequence[MarkerFamily]) -> tuple[MarkerFamily, ...]:
+    """Return the families of which one marker among many guesses is no accident."""
+    return tuple(one for one in families if one.chance_of_random_match(0) < _LEAST_CHANCE)
+
+
+def _guesses(evidence: Evidence, families: Sequence[MarkerFamily]) -> Iterator[Array]:
     """Return outlines (4, 2) that may be a black border's, the larger first within each kind."""
     rejected = [one.corners_px for one in evidence.findings.rejections]
     yield from sorted(rejected, key=_area, reverse=True)[: _MOST_GUESSES // 2]
-    shares = {_data_share(one) for one in evidence.families}
+    layouts = {(one.layout.side_cells, one.layout.border_cells) for one in families}
     inner = sorted(_bright_areas(evidence.grey), key=_area, reverse=True)
-    for corners in inner[: _MOST_GUESSES // (2 * len(shares))]:
-        centre = corners.mean(axis=0)
-        yield from (centre + (corners - centre) / share for share in sorted(shares))
+    for box in inner[: _MOST_GUESSES // (2 * len(layouts))]:
+        for side_cells, border_cells in sorted(layouts):
+            yield from _squares_around(box, side_cells, border_cells)
 
 
-def _data_share(family: MarkerFamily) -> float:
-    """Return the side of the bits as a share of the side of the square."""
-    return 1 - 2 * family.layout.border_cells / family.layout.side_cells
+def _squares_around(box: Array, side_cells: int, border_cells: int) -> Iterator[Array]:
+    """Return the squares that a box of bright cells may lie in.
+
+    The box spans all bits one way; the other way a row of bits or more may be black at either end.
+    """
+    data_cells = side_cells - 2 * border_cells
+    origin, across, down = box[0], box[1] - box[0], box[3] - box[0]
+    if np.linalg.norm(across) < np.linalg.norm(down):
+        origin, across, down = box[3], -down, across
+    cell_px = np.linalg.norm(across) / data_cells
+    right, below = across / data_cells, down / np.linalg.norm(down) * cell_px
+    missing = max(0, data_cells - round(float(np.linalg.norm(down) / cell_px)))
+    for above in range(missing + 1):
+        top_left = origin - border_cells * right - (border_cells + above) * below
+        steps = side_cells * np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+        yield top_left + steps[:, :1] * right + steps[:, 1:] * below
 
 
 def _bright_areas(grey: GreyPixels) -> Iterator[Array]:
@@ -102,17 +122,19 @@ def _is_squarish(corners: Array) -> bool:
     return shorter > 8 and longer < 1.6 * shorter
 
 
-def _painted(evidence: Evidence, quad: Array) -> tuple[Detection, ...]:
+def _painted(
+    grey: GreyPixels, quad: Array, families: Sequence[MarkerFamily]
+) -> tuple[Detection, ...]:
     """Return what is found in a square that was straightened and given a white margin."""
-    cells = max(one.layout.side_cells for one in evidence.families)
+    cells = max(one.layout.side_cells for one in families)
     side_px, margin_px = cells * _CELL_PX, _MARGIN_CELLS * _CELL_PX
     square = np.array([[0, 0], [side_px, 0], [side_px, side_px], [0, side_px]]) + margin_px - 0.5
     H = cv2.getPerspectiveTransform(quad.astype(np.float32), square.astype(np.float32))
-    patch = cv2.warpPerspective(evidence.grey, H, (side_px + 2 * margin_px,) * 2)
+    patch = cv2.warpPerspective(grey, H, (side_px + 2 * margin_px,) * 2)
     inside = patch[margin_px:-margin_px, margin_px:-margin_px]
     framed = np.full(patch.shape, np.percentile(inside, 98), dtype=np.uint8)
     framed[margin_px:-margin_px, margin_px:-margin_px] = inside
-    found = Detector(evidence.families).detect(framed)
+    found = Detector(families).detect(framed)
     return tuple(one for one in found if one.side_px > 0.8 * side_px)
 
 

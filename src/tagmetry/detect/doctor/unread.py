@@ -70,7 +70,8 @@ def _too_small(
             severity,
             "too small",
             f"{_count(squares)} almost read as {squares[0].family}: the largest has sides of "
-            f"{largest_px:.0f} px, {cell_px:.1f} px per cell; about {NEEDED_PX_PER_CELL:g} are needed",
+            f"{largest_px:.0f} px, {cell_px:.1f} px per cell; about "
+            f"{NEEDED_PX_PER_CELL:g} are needed",
             f"come {NEEDED_PX_PER_CELL / cell_px:.1f} times nearer or more, zoom in, print larger, "
             "take more resolution, or a family with fewer cells",
         ),
