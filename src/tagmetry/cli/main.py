@@ -15,6 +15,7 @@ from tagmetry.cli.bench import bench
 from tagmetry.cli.camera import app as camera_app
 from tagmetry.cli.demo import demo
 from tagmetry.cli.detect import detect
+from tagmetry.cli.doctor import doctor
 from tagmetry.cli.info import info
 from tagmetry.cli.print import app as print_app
 from tagmetry.errors import InputError
@@ -29,6 +30,7 @@ app.command()(detect)
 app.add_typer(print_app, name="print")
 app.add_typer(camera_app, name="camera")
 app.command()(info)
+app.command()(doctor)
 app.command()(demo)
 app.command()(bench)
 
