@@ -17,6 +17,8 @@ from tagmetry.markers import MarkerFamily, family, family_names
 
 _SURE = 5.0  # decades: two markers of 4x4_50, one of tag25h9
 _LEAST_CONFIDENCE = 0.4
+_AS_CLEAR = 0.8
+_TELLING = 1e-5  # chance of a code of so many bits that it tells by itself
 _SUBSET = re.compile(r"^(?P<kind>\dx\d)_(?P<count>50|100|250|1000)(?P<border>_border\d)?$")
 _MOST_IDS_SHOWN = 12
 
@@ -76,11 +78,16 @@ def grouped(detections: Sequence[Detection], known: Sequence[MarkerFamily]) -> t
     for one in detections:
         if one.confidence >= _LEAST_CONFIDENCE:
             gathered.setdefault((one.family, one.is_inverted), []).append(one)
-    groups = [
-        Group(_smallest(by_name[name], max(d.id for d in found)), tuple(found))
-        for (name, _), found in gathered.items()
-    ]
+    groups = [_group(by_name[name], found) for (name, _), found in gathered.items()]
     return tuple(sorted(groups, key=lambda group: -group.evidence))
+
+
+def _group(found_in: MarkerFamily, found: Sequence[Detection]) -> Group:
+    """Return the group, without those that are much less clear than the clearest of few bits."""
+    least = max(one.confidence for one in found) * _AS_CLEAR
+    if found_in.chance_of_random_match(0) > _TELLING:
+        found = [one for one in found if one.confidence >= least]
+    return Group(_smallest(found_in, max(one.id for one in found)), tuple(found))
 
 
 def every_family() -> tuple[MarkerFamily, ...]:
