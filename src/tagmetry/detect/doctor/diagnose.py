@@ -9,6 +9,7 @@ from tagmetry.detect.doctor.blur import check_blur
 from tagmetry.detect.doctor.calibration import check_calibration
 from tagmetry.detect.doctor.contrast import check_contrast
 from tagmetry.detect.doctor.duplicates import check_duplicates
+from tagmetry.detect.doctor.edge import check_edge
 from tagmetry.detect.doctor.evidence import Evidence, detections_of
 from tagmetry.detect.doctor.found import check_found
 from tagmetry.detect.doctor.mirrored import check_mirrored
@@ -22,7 +23,7 @@ from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.markers import MarkerFamily
 
 _SEVERITIES = ("problem", "hint", "ok")
-_OF_FOUND = (check_found, check_duplicates)
+_OF_FOUND = (check_found, check_duplicates, check_edge)
 _PROVING = (check_present, check_mirrored, check_quiet_zone)
 _LIKELY = (check_contrast, check_unread, check_blur, check_perhaps)
 
