@@ -50,9 +50,7 @@ def test_an_axis_parallel_square_covers_its_share_of_every_pixel(shift_px: float
 
     share = np.outer(overlap(200, middle_px[1]), overlap(240, middle_px[0]))
     found = (white - 20) / 200
-    np.testing.assert_allclose(found, share, atol=1.1 / 36 + 0.5 / 200)  # one of 36 rays, rounding
-    half_a_ray_px = 0.5 / 36  # an edge along the pixels stands at the same of their rays all along
-    assert found.sum() == pytest.approx(side_px**2, abs=4 * side_px * half_a_ray_px)
+    np.testing.assert_allclose(found, share, atol=0.51 / 200)  # rounding to whole grey values
 
 
 def edge_places_px(grey: Array, rows: slice) -> Array:
@@ -79,27 +77,24 @@ def test_edges_stand_where_the_camera_projects_them(lens: BrownLens, blur_px: fl
     expected = np.interp(rows, v[order], u[order])
     found = edge_places_px(grey, slice(rows[0], rows[-1] + 1))
     error = found - expected
-    assert abs(error.mean()) < 0.005
-    assert np.abs(error).max() < 0.04  # a single row shows the 36 rays and the 200 grey values
+    assert abs(error.mean()) < 0.001
+    assert np.abs(error).max() < 0.012  # a single row shows the 200 grey values
     if lens.coefficients and any(lens.coefficients):
         line = np.polynomial.Polynomial.fit(rows, expected, 1)(rows)
         assert np.abs(expected - line).max() > 0.2  # the edge does bow
 
 
-@pytest.mark.parametrize(("blur_px", "share"), [(0.6, 0.04), (1.0, 0.012), (2.0, 0.012)])
-def test_a_blurred_edge_is_a_gaussians_integral(blur_px: float, share: float) -> None:
-    """The profile is the mean over a pixel of (1 + erf(t / (sigma sqrt 2))) / 2.
-
-    The blur acts on pixels, which are coarse beside a sharp point spread.
-    """
+@pytest.mark.parametrize("blur_px", [0.4, 0.6, 1.0, 2.0])
+def test_a_blurred_edge_is_a_gaussians_integral(blur_px: float) -> None:
+    """The profile is the mean over a pixel of (1 + erf(t / (sigma sqrt 2))) / 2."""
     look = Look(black=220, white=220, background=20, blur_px=blur_px, noise=0)
     side_px = 80.4
     white = picture([marker(facing(0, 0, 1.0), side_px / 400.0)], look)
     row = (white[100, :119] - 20) / 200
-    within = np.linspace(-0.5, 0.5, 201)
+    within = (np.arange(200) + 0.5) / 200 - 0.5
     distance_px = np.arange(119)[:, None] + within - (119.5 - side_px / 2)
     profile = (1 + erf(distance_px / (blur_px * np.sqrt(2)))).mean(axis=1) / 2
-    np.testing.assert_allclose(row, profile, atol=share)
+    np.testing.assert_allclose(row, profile, atol=0.0055)  # of which rounding 0.0025
 
 
 def test_noise_has_the_variance_that_was_asked_for() -> None:

@@ -104,7 +104,7 @@ def case(
         MountedMarker(FAMILY, n, SIZE_M, _tilted(camera, columns, rows, n, depth_m, rng))
         for n in range(marker_count)
     ]
-    look = Look(noise=noise, rays_per_side=4)
+    look = Look(noise=noise)
     pixels = render(markers, RigidTransform.identity(), camera, rng, look)
     return Case(name, pixels, camera, marker_count)
 

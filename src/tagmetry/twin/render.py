@@ -1,24 +1,34 @@
-"""A simple renderer: printed markers in front of a plain background, seen by a camera.
+"""Exact pictures of printed markers, by the twin's own rays.
 
-Every pixel is the mean of many viewing rays; each ray meets the markers' planes and takes the
-colour of the cell that it hits, the nearest plane winning. Blur and noise follow. A marker is drawn
-with a white quiet zone around it.
+Every pixel is the exact mean of what its footprint shows (`coverage`); the point spread is applied
+on a grid fine enough to hold it, before pixels are formed; noise and rounding follow. Sheets are
+painted from far to near, each over what it covers.
 
-Frames: `p_camera = T_camera_marker @ p_marker`.
+Frames: `p_camera = T_camera_body.apply(p_body)`.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
-from scipy.ndimage import gaussian_filter
+from numpy.typing import NDArray
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
-from tagmetry.geometry.arrays import BoolArray, GreyPixels
-from tagmetry.markers import MountedMarker, family, marker_corners_m
+from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.markers import MountedMarker
+from tagmetry.twin.coverage import footprint_means
+from tagmetry.twin.rays import Rays
+from tagmetry.twin.sheet import Layer, Sheet, marker_sheet
 
-_EDGE_PX = 2  # pixels around a marker's outline that are rendered with it
+_HELD_BLUR = 1.2  # standard deviation, in points of the fine grid, that it holds without aliasing
+_STEP_VARIANCE = (
+    1 / 12
+)  # an edge within a fine pixel becomes two steps: this much wider, on average
+_FINEST = 4
+_MARGIN_PX = 2
+FloatImage = NDArray[np.float32]
 
 
 @dataclass(frozen=True)
@@ -29,10 +39,8 @@ class Look:
         black: Grey value of ink, 0 to 255.
         white: Grey value of paper.
         background: Grey value behind the markers.
-        blur_px: Standard deviation of a Gaussian point spread. It acts on whole pixels: an edge's
-            profile keeps to the Gaussian's integral within 1 % from 1 px on, within 4 % at 0.6.
+        blur_px: Standard deviation of a Gaussian point spread, besides the pixel's own area.
         noise: Standard deviation of the noise, grey values.
-        rays_per_side: Rays along a pixel's side; their square is the number per pixel.
         quiet_cells: Width of the white zone around a marker.
     """
 
@@ -41,7 +49,6 @@ class Look:
     background: float = 120.0
     blur_px: float = 0.6
     noise: float = 1.0
-    rays_per_side: int = 6
     quiet_cells: float = 1.0
 
 
@@ -62,92 +69,87 @@ def render(
         look: Colours, blur and noise.
     """
     look = look or Look()
-    grey = np.full((camera.height_px, camera.width_px), look.background, dtype=np.float64)
-    by_distance = sorted(markers, key=lambda m: -_distance_m(T_camera_body * m.T_body_marker))
-    for marker in by_distance:
-        _draw(grey, marker, T_camera_body * marker.T_body_marker, camera, look)
-    if look.blur_px > 0:
-        grey = gaussian_filter(grey, look.blur_px, mode="nearest")
-    grey = grey + rng.normal(0.0, look.noise, grey.shape) if look.noise > 0 else grey
-    return np.asarray(np.clip(np.rint(grey), 0, 255), dtype=np.uint8)
+    fine = _fine_scale(look.blur_px)
+    grey = np.full((camera.height_px * fine, camera.width_px * fine), look.background, np.float32)
+    sheets = [marker_sheet(marker, look.quiet_cells) for marker in markers]
+    for sheet in sorted(sheets, key=lambda one: -_distance_m(T_camera_body * one.T_body_sheet)):
+        _paint(grey, sheet, T_camera_body * sheet.T_body_sheet, camera, fine, look)
+    return _developed(grey, fine, rng, look)
 
 
-def _draw(
-    grey: Array, marker: MountedMarker, T_camera_marker: RigidTransform, camera: Camera, look: Look
+def _fine_scale(blur_px: float) -> int:
+    """Return how many points of the fine grid make a pixel's side; without blur, one is exact."""
+    return 1 if blur_px == 0 else min(_FINEST, int(np.ceil(_HELD_BLUR / blur_px)))
+
+
+def _distance_m(T_camera_sheet: RigidTransform) -> float:
+    return float(np.linalg.norm(T_camera_sheet.translation))
+
+
+def _paint(
+    grey: FloatImage,
+    sheet: Sheet,
+    T_camera_sheet: RigidTransform,
+    camera: Camera,
+    fine: int,
+    look: Look,
 ) -> None:
-    """Paint one marker over what is behind it."""
-    picture = family(marker.family).picture(marker.id)
-    layout = family(marker.family).layout
-    cell_m = marker.size_m / layout.side_cells
-    half_m = marker.size_m / 2 + (layout.margin_cells + look.quiet_cells) * cell_m
-    outline = T_camera_marker.apply(marker_corners_m(2 * half_m))
-    box = _box(camera.project(outline), camera)
-    if box is None or T_camera_marker.rotation.as_matrix()[:, 2] @ outline.mean(axis=0) >= 0:
+    """Paint one sheet, layer by layer, over what is behind it."""
+    box = _box(sheet, T_camera_sheet, camera)
+    if box is None:
         return
-    left, top, right, bottom = box
-    share, ink = np.zeros((2, bottom - top, right - left))
-    for p_marker in _on_marker(box, T_camera_marker, camera, look.rays_per_side**2):
-        inside = (np.abs(p_marker) <= half_m).all(axis=-1)
-        white = _cells(p_marker, picture, layout.margin_cells, cell_m, marker.size_m)
-        share += inside
-        ink += np.where(inside, np.where(white, look.white, look.black), 0.0)
-    share, ink = share / look.rays_per_side**2, ink / look.rays_per_side**2
+    left, top, right, bottom = (fine * edge for edge in box)
+    u = np.arange(left, right + 1) / fine - 0.5  # the corners of the fine pixels
+    v = np.arange(top, bottom + 1) / fine - 0.5
+    x_m, y_m = _on_sheet(Rays(camera).look(*np.meshgrid(u, v)), T_camera_sheet)
     window = grey[top:bottom, left:right]
-    window[:] = ink + (1 - share) * window
+    for layer in sheet.layers:
+        colour, share = footprint_means(*_in_cells(x_m, y_m, layer), layer.cells)
+        window *= 1 - share
+        window += look.black * share + (look.white - look.black) * colour
 
 
-def _box(outline_px: Array, camera: Camera) -> tuple[int, int, int, int] | None:
-    """Return the pixels (left, top, right, bottom) that can show a marker, None if none do."""
-    if not np.isfinite(outline_px).all():
+def _box(
+    sheet: Sheet, T_camera_sheet: RigidTransform, camera: Camera
+) -> tuple[int, int, int, int] | None:
+    """Return the pixels (left, top, right, bottom) that can show a sheet; None if none do."""
+    outward = T_camera_sheet.rotation.as_matrix()[:, 2]
+    if outward @ T_camera_sheet.translation >= 0:  # its back is turned
         return None
-    low = np.floor(outline_px.min(axis=0)).astype(int) - _EDGE_PX
-    high = np.ceil(outline_px.max(axis=0)).astype(int) + _EDGE_PX + 1
-    left, top = np.maximum(low, 0)
-    right, bottom = np.minimum(high, camera.size_px)
+    seen = Rays(camera).see(T_camera_sheet.apply(sheet.rim_m(points_per_side=8)))
+    if not np.isfinite(seen).all():
+        return None
+    low = np.floor(seen.min(axis=0)).astype(int) - _MARGIN_PX
+    high = np.ceil(seen.max(axis=0)).astype(int) + _MARGIN_PX + 1
+    left, top = (int(edge) for edge in np.maximum(low, 0))
+    right, bottom = (int(edge) for edge in np.minimum(high, camera.size_px))
     return (left, top, right, bottom) if left < right and top < bottom else None
 
 
-def _on_marker(
-    box: tuple[int, int, int, int], T_camera_marker: RigidTransform, camera: Camera, count: int
-) -> Iterator[Array]:
-    """Give where each of `count` rays per pixel meets the marker's plane, (height, width, 2).
-
-    NaN where it does not. The lens is asked at the pixels' corners; between them directions are
-    linear to 1e-4 px.
-    """
-    left, top, right, bottom = box
-    grid = np.meshgrid(np.arange(left, right + 1) - 0.5, np.arange(top, bottom + 1) - 0.5)
-    R_camera_marker = T_camera_marker.rotation.as_matrix()
-    rays = camera.unproject(np.stack(grid, axis=-1)) @ R_camera_marker
-    eye = -T_camera_marker.translation @ R_camera_marker
-    for x, y in zip(*_within_pixel(count), strict=True):
-        upper = (1 - x) * rays[:-1, :-1] + x * rays[:-1, 1:]
-        lower = (1 - x) * rays[1:, :-1] + x * rays[1:, 1:]
-        ray = (1 - y) * upper + y * lower
-        depth = np.where(ray[..., 2:] < 0, ray[..., 2:], np.nan)
-        yield eye[:2] - ray[..., :2] * (eye[2] / depth)
+def _on_sheet(rays: Array, T_camera_sheet: RigidTransform) -> tuple[Array, Array]:
+    """Return where viewing rays (..., 3) meet the sheet, x and y in its frame, NaN where behind."""
+    R_camera_sheet = T_camera_sheet.rotation.as_matrix()
+    camera_in_sheet = -T_camera_sheet.translation @ R_camera_sheet
+    along = rays @ R_camera_sheet
+    with np.errstate(divide="ignore", invalid="ignore"):
+        reach = -camera_in_sheet[2] / along[..., 2]
+        reach[~(reach > 0)] = np.nan
+    return camera_in_sheet[0] + reach * along[..., 0], camera_in_sheet[1] + reach * along[..., 1]
 
 
-def _within_pixel(count: int) -> tuple[Array, Array]:
-    """Return where rays pierce a pixel, 0 to 1, each of x and y taking `count` values.
-
-    A square grid would place edges along the pixels' rows only to 1 / sqrt(count) px.
-    """
-    even = (np.arange(count) + 0.5) / count
-    return even, even[np.argsort(np.arange(count) * 0.6180339887498949 % 1)]
+def _in_cells(x_m: Array, y_m: Array, layer: Layer) -> tuple[Array, Array]:
+    """Return places on a sheet in a layer's cells, x right and y down from its top left corner."""
+    rows, columns = layer.cells.shape
+    return x_m / layer.cell_m + columns / 2, rows / 2 - y_m / layer.cell_m
 
 
-def _cells(
-    p_marker: Array, picture: BoolArray, margin: int, cell_m: float, size_m: float
-) -> BoolArray:
-    """Return which rays hit white: a white cell, or the paper around the cells."""
-    with np.errstate(invalid="ignore"):
-        column = np.floor((p_marker[..., 0] + size_m / 2) / cell_m) + margin
-        row = np.floor((size_m / 2 - p_marker[..., 1]) / cell_m) + margin
-        outside = ~((column >= 0) & (row >= 0) & (column < len(picture)) & (row < len(picture)))
-    column, row = (np.where(outside, 0, index).astype(int) for index in (column, row))
-    return np.asarray(outside | picture[row, column])
-
-
-def _distance_m(T_camera_marker: RigidTransform) -> float:
-    return float(np.linalg.norm(T_camera_marker.translation))
+def _developed(grey: FloatImage, fine: int, rng: np.random.Generator, look: Look) -> GreyPixels:
+    """Blur on the fine grid, form pixels, add noise, round."""
+    if look.blur_px > 0:
+        spread = np.sqrt((fine * look.blur_px) ** 2 - _STEP_VARIANCE)
+        grey = np.asarray(cv2.GaussianBlur(grey, (0, 0), spread), np.float32)
+    size_px = (grey.shape[1] // fine, grey.shape[0] // fine)
+    pixels = np.asarray(cv2.resize(grey, size_px, interpolation=cv2.INTER_AREA), dtype=np.float64)
+    if look.noise > 0:
+        pixels = pixels + rng.normal(0.0, look.noise, pixels.shape)
+    return np.asarray(np.clip(np.rint(pixels), 0, 255), dtype=np.uint8)

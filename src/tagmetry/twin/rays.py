@@ -1,0 +1,177 @@
+"""The twin's own lens: which way a pixel looks, and which pixel sees a point.
+
+It takes the numbers of a `Camera` (intrinsics and distortion coefficients) but none of its code:
+the laws are written here again, the inverse is another algorithm (steps with a numerical
+derivative, each pixel from its neighbour's ray), so that a slip in the one shows against the other.
+
+    u = fx x'' + cx, v = fy y'' + cy,  (x'', y'') the ray (x, y, 1) bent by the lens
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from tagmetry.camera import Camera
+from tagmetry.geometry import Array
+
+_STEP = 1e-6
+_TURNS = 50
+_REACHED = 1e-12
+
+
+@dataclass(frozen=True)
+class Rays:
+    """A camera as the twin sees it."""
+
+    camera: Camera
+
+    def look(self, u: Array, v: Array) -> Array:
+        """Return viewing directions of pixels, shape (..., 3), NaN where there is none."""
+        bent_x = (u - self.camera.center_px[0]) / self.camera.focal_px[0]
+        bent_y = (v - self.camera.center_px[1]) / self.camera.focal_px[1]
+        fisheye = self.camera.lens.kind == "fisheye"
+        rays = _straightened(bent_x.ravel(), bent_y.ravel(), self._coefficients, fisheye)
+        return np.asarray(rays.reshape(*u.shape, 3))
+
+    def see(self, p_camera: Array) -> Array:
+        """Return the pixels that show points (..., 3), shape (..., 2); z must be positive."""
+        points = np.ascontiguousarray(p_camera.reshape(-1, 3))
+        fisheye = self.camera.lens.kind == "fisheye"
+        bent = _bent(points, self._coefficients, fisheye).reshape(*p_camera.shape[:-1], 2)
+        return np.asarray(bent * self.camera.focal_px + self.camera.center_px)
+
+    @property
+    def _coefficients(self) -> Array:
+        given = np.array(self.camera.lens.coefficients, dtype=np.float64)
+        return np.concatenate([given, np.zeros(14 - len(given))])
+
+
+@njit(cache=True, nogil=True)
+def _bent(points: Array, k: Array, fisheye: bool) -> Array:
+    """Return the bent rays of points (n, 3), shape (n, 2)."""
+    bent = np.full((len(points), 2), np.nan)
+    for i in range(len(points)):
+        x, y, z = points[i]
+        if fisheye:
+            bent[i] = _bend_fisheye(x, y, z, k)
+        elif z > 0:
+            bent[i] = _bend(x / z, y / z, k)
+    return bent
+
+
+@njit(cache=True, nogil=True)
+def _straightened(bent_x: Array, bent_y: Array, k: Array, fisheye: bool) -> Array:
+    """Return the directions (n, 3) whose bent rays are given."""
+    rays = np.full((len(bent_x), 3), np.nan)
+    fold = np.inf if fisheye else _fold(k)
+    x, y = 0.0, 0.0
+    for i in range(len(bent_x)):
+        if fisheye:
+            rays[i] = _unbend_fisheye(bent_x[i], bent_y[i], k)
+            continue
+        x, y, reached = _unbend(bent_x[i], bent_y[i], x, y, k, fold)
+        if not reached:  # the neighbour's ray was no good start
+            x, y, reached = _unbend(bent_x[i], bent_y[i], bent_x[i], bent_y[i], k, fold)
+        if reached:
+            rays[i] = (x, y, 1.0)
+        else:
+            x, y = 0.0, 0.0
+    return rays
+
+
+@njit(cache=True, nogil=True)
+def _bend(x: float, y: float, k: Array) -> tuple[float, float]:
+    """Bend a ray: radial, decentring, thin prism, tilted sensor (coefficients as OpenCV's)."""
+    q = x * x + y * y
+    gain = 1.0 + k[0] * q + k[1] * q**2 + k[4] * q**3
+    gain /= 1.0 + k[5] * q + k[6] * q**2 + k[7] * q**3
+    u = gain * x + 2.0 * k[2] * x * y + k[3] * (3.0 * x * x + y * y) + k[8] * q + k[9] * q**2
+    v = gain * y + k[2] * (x * x + 3.0 * y * y) + 2.0 * k[3] * x * y + k[10] * q + k[11] * q**2
+    if k[12] == 0.0 and k[13] == 0.0:
+        return u, v
+    # The sensor's axes in the lens: the plane is met by the ray through (u, v, 1) and looked at
+    # along its own normal.
+    cx, sx, cy, sy = np.cos(k[12]), np.sin(k[12]), np.cos(k[13]), np.sin(k[13])
+    along = cy * u + sy * sx * v - sy * cx
+    down = cx * v + sx
+    depth = sy * u - cy * sx * v + cy * cx
+    normal = cy * cx
+    return normal * along / depth + sy * cx, normal * down / depth - sx
+
+
+@njit(cache=True, nogil=True)
+def _unbend(
+    bent_x: float, bent_y: float, x: float, y: float, k: Array, fold: float
+) -> tuple[float, float, bool]:
+    """Find the ray that is bent to a place, from a start; say whether it was reached."""
+    for _ in range(_TURNS):
+        at_x, at_y = _bend(x, y, k)
+        miss_x, miss_y = bent_x - at_x, bent_y - at_y
+        if abs(miss_x) + abs(miss_y) < _REACHED:
+            return x, y, x * x + y * y < fold
+        right_x, right_y = _bend(x + _STEP, y, k)
+        low_x, low_y = _bend(x, y + _STEP, k)
+        a, b = (right_x - at_x) / _STEP, (low_x - at_x) / _STEP
+        c, d = (right_y - at_y) / _STEP, (low_y - at_y) / _STEP
+        area = a * d - b * c
+        if not area > 1e-9:
+            return x, y, False
+        x += (d * miss_x - b * miss_y) / area
+        y += (a * miss_y - c * miss_x) / area
+    return x, y, False
+
+
+@njit(cache=True, nogil=True)
+def _fold(k: Array) -> float:
+    """Return the least radius squared at which the image stands still, by walking outward."""
+    least = np.inf
+    for direction in range(16):
+        cos, sin = np.cos(np.pi * direction / 8.0), np.sin(np.pi * direction / 8.0)
+        before = 0.0
+        for step in range(1, 600):
+            radius = 0.005 * step * (1.0 + 0.01 * step)
+            u, v = _bend(radius * cos, radius * sin, k)
+            reached = u * cos + v * sin
+            if reached <= before:
+                least = min(least, radius * radius)
+                break
+            before = reached
+    return least
+
+
+@njit(cache=True, nogil=True)
+def _bend_fisheye(x: float, y: float, z: float, k: Array) -> tuple[float, float]:
+    across = np.sqrt(x * x + y * y)
+    if across == 0.0:
+        return (0.0, 0.0) if z > 0 else (np.nan, np.nan)
+    radius = _fisheye_radius(np.arctan2(across, z), k)
+    return radius * x / across, radius * y / across
+
+
+@njit(cache=True, nogil=True)
+def _fisheye_radius(angle: float, k: Array) -> float:
+    q = angle * angle
+    return float(angle * (1.0 + k[0] * q + k[1] * q**2 + k[2] * q**3 + k[3] * q**4))
+
+
+@njit(cache=True, nogil=True)
+def _unbend_fisheye(bent_x: float, bent_y: float, k: Array) -> tuple[float, float, float]:
+    """Search outward for the first angle that reaches the radius, then halve."""
+    radius = np.sqrt(bent_x * bent_x + bent_y * bent_y)
+    if radius == 0.0:
+        return 0.0, 0.0, 1.0
+    low, high, step = 0.0, 0.0, np.pi / 128.0
+    while _fisheye_radius(high, k) < radius:
+        low, high = high, high + step
+        if high > np.pi or _fisheye_radius(high, k) < _fisheye_radius(low, k):
+            return np.nan, np.nan, np.nan
+    for _ in range(60):
+        middle = (low + high) / 2.0
+        if _fisheye_radius(middle, k) < radius:
+            low = middle
+        else:
+            high = middle
+    angle = (low + high) / 2.0
+    aside = np.sin(angle) / radius
+    return aside * bent_x, aside * bent_y, np.cos(angle)
