@@ -11,7 +11,7 @@ class Advice:
     """One thing that the doctor has to say about an image.
 
     Attributes:
-        severity: `problem`: shown by the image or its calibration; `hint`: likely, or of little
+        severity: `problem`: keeps markers from being found or measured; `hint`: a guess, or of little
             harm; `ok`: as it should be.
         title: A few words.
         explanation: What was seen, with its numbers.
