@@ -11,8 +11,8 @@ class Advice:
     """One thing that the doctor has to say about an image.
 
     Attributes:
-        severity: `problem`: keeps markers from being found or measured; `hint`: a guess, or of little
-            harm; `ok`: as it should be.
+        severity: `problem`: keeps markers from being found or measured; `hint`: a guess, or of
+            little harm; `ok`: as it should be.
         title: A few words.
         explanation: What was seen, with its numbers.
         remedy: What to do; empty where nothing needs doing.
