@@ -36,6 +36,7 @@ _CORNER_GAP_PX = 2.0
 _BOWING_HALF_PX = 15.0
 _COLUMNS = 96  # most pixels along a side that are looked at
 _FLOOR_PX = 0.01  # what the model does not describe, per side
+_LEAK = (0.9, 1.3)  # how far blur carries the next cells into a side; measured on rendered markers
 _LOST_PX = 2.5  # a side that moved farther was not the one meant
 _UNREFINED_PX2 = np.diag([0.25, 0.25])  # of a side's offset and turn, where the fit failed
 
@@ -72,6 +73,7 @@ def refine(
     sound &= np.abs(fit[:, :2]).sum(axis=1) < _LOST_PX
     tells = sound & sides.may_bow
     shift, covariance = _straightened(fit[:, :3], covariance, sides.half_px, tells)
+    covariance = covariance + _model_error(sides.cell_px, fit[:, 7])
     shift = np.where(sound[:, None], shift, 0.0)
     covariance = np.where(sound[:, None, None], covariance, _UNREFINED_PX2)
     moved, covariances = _meet(sides, shift, covariance)
@@ -93,7 +95,7 @@ class _Sides:
         along: Unit vectors, shape (s, 2).
         outward: Unit normals away from the marker, shape (s, 2).
         half_px: Half lengths, shape (s,).
-        reach_px: How far the black border extends inward, at most, shape (s,).
+        cell_px: Size of a cell perpendicular to the side, shape (s,).
         sag_px: How far outside the chord the side runs at `_SAG_AT`, shape (s, 17).
     """
 
@@ -101,8 +103,13 @@ class _Sides:
     along: Array
     outward: Array
     half_px: Array
-    reach_px: Array
+    cell_px: Array
     sag_px: Array
+
+    @property
+    def reach_px(self) -> Array:
+        """How far from a side pixels belong to it alone, shape (s,)."""
+        return np.clip(_REACH_CELLS * self.cell_px, *_REACH_PX)
 
     @property
     def may_bow(self) -> BoolArray:
@@ -122,7 +129,7 @@ class _Sides:
             along,
             outward,
             length / 2,
-            np.clip(_REACH_CELLS * cells_px, *_REACH_PX),
+            cells_px,
             _sag(starts, ends, outward, camera),
         )
 
@@ -259,6 +266,18 @@ def _model(fit: Array, window: _Window) -> tuple[Array, Array]:
     return black + black_u * u + height * step, jacobian
 
 
+def _model_error(cell_px: Array, blur_px: Array) -> Array:
+    """Return the covariance of (offset, turn) by what a lone step does not describe, (s, 2, 2).
+
+    Where cells are few blurs wide, the bits behind the border and what lies behind the quiet zone
+    reach into the window; by how much depends on the code.
+    """
+    amplitude, decay = _LEAK
+    leak_px = amplitude * blur_px * np.exp(-cell_px / (decay * blur_px))
+    variance = _FLOOR_PX**2 + leak_px**2
+    return np.asarray(variance[:, None, None] * np.diag([1.0, 1 / 3]))
+
+
 def _straightened(
     line: Array, covariance: Array, half_px: Array, tells: BoolArray
 ) -> tuple[Array, Array]:
@@ -330,7 +349,7 @@ def _meet(sides: _Sides, shift: Array, covariance: Array) -> tuple[Array, Array]
 def _corner_covariances(N_inverse: Array, covariance: Array) -> Array:
     """Carry the sides' (offset, turn) to the corners: J blockdiag(covariance) J^T."""
     n = len(N_inverse)
-    per_side = covariance.reshape(n, 4, 2, 2) + _FLOOR_PX**2 * np.diag([1.0, 1 / 3])
+    per_side = covariance.reshape(n, 4, 2, 2)
     J = np.zeros((n, 8, 8))
     for corner in range(4):
         for line, side, u in ((0, corner, -1.0), (1, (corner - 1) % 4, 1.0)):
