@@ -35,10 +35,10 @@ _REACH_CELLS = 0.9
 _CORNER_GAP_PX = 2.0
 _BOWING_HALF_PX = 15.0
 _COLUMNS = 96  # most pixels along a side that are looked at
-_FLOOR_PX = 0.01  # what the model does not describe, per side
+_FLOOR_PX = 0.005  # what the model does not describe, per side
 _LEAK = (0.9, 1.3)  # how far blur carries the next cells into a side; measured on rendered markers
 _LOST_PX = 2.5  # a side that moved farther was not the one meant
-_UNREFINED_PX2 = np.diag([0.25, 0.25])  # of a side's offset and turn, where the fit failed
+_UNREFINED_PX2 = np.diag([4.0, 4.0])  # of a side's offset and turn, where the fit failed
 
 
 @dataclass(frozen=True)
