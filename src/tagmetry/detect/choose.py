@@ -54,12 +54,23 @@ class Rules:
     inverted: bool
 
     def judge(
-        self, corners_px: Array, reading: Reading | None, families: Sequence[MarkerFamily]
+        self,
+        corners_px: Array,
+        is_bright: bool,
+        reading: Reading | None,
+        families: Sequence[MarkerFamily],
     ) -> Candidate | str:
-        """Return the marker that a square shows, or the reason why it shows none."""
+        """Return the marker that a square shows, or the reason why it shows none.
+
+        Args:
+            corners_px: The square, shape (4, 2).
+            is_bright: Whether its outline is that of a bright area.
+            reading: How it reads in the layout of the families.
+            families: Families of one layout.
+        """
         if reading is None:
             return "black and white cannot be told apart"
-        reason = self._not_a_marker(reading)
+        reason = self._not_a_marker(reading, is_bright)
         if reason is not None:
             return reason
         matches = [nearest(reading, one) for one in families]
@@ -74,12 +85,14 @@ class Rules:
         upright_px = np.roll(corners_px, -match.quarters, axis=0)
         return Candidate(upright_px, match, reading.contrast < 0, reading.sharp_outline)
 
-    def _not_a_marker(self, reading: Reading) -> str | None:
+    def _not_a_marker(self, reading: Reading, is_bright: bool) -> str | None:
         """Return why a square is no marker at all, whatever its bits say; None when it may be."""
         if not has_border(reading):
             return f"only {reading.border_share:.0%} of its border reads black"
         if not has_outline(reading):
             return "the image does not change across its sides; a wider border around it?"
+        if is_bright != (reading.contrast < 0):
+            return "the inside of a border, not a border"
         if reading.contrast < 0 and not self.inverted:
             return "white on black; look for inverted markers to accept it"
         return None

@@ -69,13 +69,13 @@ class Detector:
                 makes of them.
         """
         grey = self._checked(image, camera)
-        candidates, _ = self._judged(grey)
+        candidates, _ = self._judged(grey, bright=self.rules.inverted)
         return _detections(grey, best_per_place(candidates), camera)
 
     def explain(self, image: AnyPixels, camera: Camera | None = None) -> Findings:
         """Return the markers, and the squares that were turned down, each with the reason."""
         grey = self._checked(image, camera)
-        candidates, rejections = self._judged(grey)
+        candidates, rejections = self._judged(grey, bright=True)
         detections = _detections(grey, best_per_place(candidates), camera)
         return Findings(detections, distinct_rejections(rejections, detections))
 
@@ -93,14 +93,18 @@ class Detector:
             grouped.setdefault(one.layout, []).append(one)
         return grouped
 
-    def _judged(self, grey: GreyPixels) -> tuple[list[Candidate], list[Rejection]]:
+    def _judged(self, grey: GreyPixels, *, bright: bool) -> tuple[list[Candidate], list[Rejection]]:
         """Read every square of the image in every layout."""
-        corners_px = quads(grey, self.min_side_px or _default_min_side_px(grey))
+        least_px = self.min_side_px or _default_min_side_px(grey)
+        squares = quads(grey, least_px, bright=bright)
         candidates: list[Candidate] = []
         rejections: list[Rejection] = []
         for layout, families in self._families_by_layout.items():
-            for corners, reading in zip(corners_px, read(grey, corners_px, layout), strict=True):
-                verdict = self.rules.judge(corners, reading, families)
+            readings = read(grey, squares.corners_px, layout)
+            for corners, is_bright, reading in zip(
+                squares.corners_px, squares.is_bright, readings, strict=True
+            ):
+                verdict = self.rules.judge(corners, bool(is_bright), reading, families)
                 if isinstance(verdict, Candidate):
                     candidates.append(verdict)
                 else:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from tagmetry.geometry.arrays import AnyPixels, Array, GreyPixels
+from tagmetry.geometry.arrays import AnyPixels, Array, BoolArray, GreyPixels
 
 _DARKER_BY = 6  # grey values below the neighbourhood's mean
 _CLEAR = 20  # grey values between the darkest and the brightest around
@@ -42,6 +42,19 @@ class Pass:
     thinned: bool = False
 
 
+@dataclass(frozen=True, eq=False)
+class Squares:
+    """Outlines with four sides; the same square again where several passes saw it.
+
+    Attributes:
+        corners_px: Clockwise as seen, pixel centres at integers, shape (n, 4, 2).
+        is_bright: Whether the inside is brighter than the outside, shape (n,).
+    """
+
+    corners_px: Array
+    is_bright: BoolArray
+
+
 def passes(width_px: int, height_px: int, min_side_px: float) -> tuple[Pass, ...]:
     """Return the passes for an image in which markers have at least a certain side.
 
@@ -56,25 +69,26 @@ def passes(width_px: int, height_px: int, min_side_px: float) -> tuple[Pass, ...
     return (*plain, *thinned, *enlarged)
 
 
-def quads(grey: GreyPixels, min_side_px: float) -> Array:
+def quads(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
     """Return the outlines with four sides.
 
     Args:
         grey: 8-bit image.
         min_side_px: Sides shorter than this are passed over.
-
-    Returns:
-        Shape (n, 4, 2), clockwise as seen, pixel centres at integers; repeated where several
-        passes saw the same square.
+        bright: Bright squares on dark as well; the inside of a wide black border is one, too.
     """
     height_px, width_px = grey.shape
     found = [
-        _quads_of_pass(grey, one, min_side_px) for one in passes(width_px, height_px, min_side_px)
+        _quads_of_pass(grey, one, min_side_px, bright)
+        for one in passes(width_px, height_px, min_side_px)
     ]
-    return np.concatenate(found) if found else np.zeros((0, 4, 2))
+    return Squares(
+        np.concatenate([squares.corners_px for squares in found]),
+        np.concatenate([squares.is_bright for squares in found]),
+    )
 
 
-def _quads_of_pass(grey: GreyPixels, one: Pass, min_side_px: float) -> Array:
+def _quads_of_pass(grey: GreyPixels, one: Pass, min_side_px: float, bright: bool) -> Squares:
     scaled = grey
     if one.scale != 1.0:
         scaled = np.asarray(
@@ -84,9 +98,10 @@ def _quads_of_pass(grey: GreyPixels, one: Pass, min_side_px: float) -> Array:
     dark = _dark(scaled, one)
     outset_px = 1.5 if one.thinned else 0.5
     outlines, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_NONE)
-    found = list(_four_sided(outlines, one.scale * min_side_px, outset_px))
-    corners = np.array(found).reshape(-1, 4, 2)
-    return (corners + 0.5) / one.scale - 0.5
+    found = list(_four_sided(outlines, one.scale * min_side_px, outset_px, bright))
+    corners = np.array([corners for corners, _ in found]).reshape(-1, 4, 2)
+    is_bright = np.array([is_hole for _, is_hole in found], dtype=bool)
+    return Squares((corners + 0.5) / one.scale - 0.5, is_bright)
 
 
 def _dark(grey: GreyPixels, one: Pass) -> AnyPixels:
@@ -109,18 +124,23 @@ def _below_midway(grey: GreyPixels, window_px: int) -> AnyPixels:
 
 
 def _four_sided(
-    outlines: Sequence[AnyPixels], min_side_px: float, outset_px: float
-) -> Iterator[Array]:
+    outlines: Sequence[AnyPixels], min_side_px: float, outset_px: float, bright: bool
+) -> Iterator[tuple[Array, bool]]:
+    """Give the corners of the outlines with four sides, and whether they surround a bright area."""
     long_enough = [outline for outline in outlines if len(outline) >= 3 * min_side_px]
     long_enough.sort(key=len, reverse=True)
     for outline in long_enough[:_MAX_OUTLINES]:
+        is_hole = _is_hole(outline)
+        if is_hole and not bright:
+            continue
         polygon = cv2.approxPolyDP(outline, _STRAIGHT * len(outline), closed=True)
         if len(polygon) != 4 or not cv2.isContourConvex(polygon):
             continue
         starts = _indices(outline[:, 0], polygon[:, 0])
-        corners = _fitted(outline[:, 0].astype(np.float64), starts, outset_px)
+        signed_px = -outset_px if is_hole else outset_px
+        corners = _fitted(outline[:, 0].astype(np.float64), starts, signed_px)
         if corners is not None and _is_wide(corners, min_side_px):
-            yield corners
+            yield corners, is_hole
 
 
 def _indices(outline: AnyPixels, polygon: AnyPixels) -> list[int]:
@@ -132,21 +152,20 @@ def _fitted(outline: Array, starts: list[int], outset_px: float) -> Array | None
     """Return the corners of four lines fitted to the outline, clockwise, set outward.
 
     The outline runs through the centres of dark pixels; the edge is half a pixel farther out for a
-    dark square, and farther in for a bright one (its outline is the dark rim around it).
+    dark square, and farther in for a bright one (its outline is the dark rim around it; outset_px
+    is then negative, and the outline runs clockwise instead of counter-clockwise).
     """
     pieces = np.split(np.roll(outline, -starts[0], axis=0), np.array(starts[1:]) - starts[0])
     if min(len(piece) for piece in pieces) < 4:
         return None
     lines = np.array([_line(piece) for piece in pieces])
     centre = np.mean([piece.mean(axis=0) for piece in pieces], axis=0)
-    # OpenCV runs around dark areas counter-clockwise and around holes clockwise, y down
-    is_hole = _signed_area(outline[starts]) > 0
     outward = np.sign(np.einsum("ij,ij->i", lines[:, :2], lines[:, 2:] - centre))
-    points = lines[:, 2:] + (outset_px * (-1 if is_hole else 1) * outward)[:, None] * lines[:, :2]
+    points = lines[:, 2:] + (outset_px * outward)[:, None] * lines[:, :2]
     corners = _crossings(lines[:, :2], points)
     if corners is None:
         return None
-    return corners if is_hole else corners[::-1]
+    return corners if outset_px < 0 else corners[::-1]
 
 
 def _line(points: Array) -> Array:
@@ -178,9 +197,9 @@ def _is_wide(corners: Array, min_side_px: float) -> bool:
     return bool(lengths.min() >= min_side_px and (turns > 0).all())
 
 
-def _signed_area(corners: Array) -> float:
-    x, y = corners.T
-    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2)
+def _is_hole(outline: AnyPixels) -> bool:
+    """OpenCV runs around dark areas counter-clockwise as seen, around holes in them clockwise."""
+    return bool(cv2.contourArea(outline, oriented=True) > 0)
 
 
 def _odd(size: float) -> int:
