@@ -72,6 +72,7 @@ OPTIONS = {
     "--out=/proc/out.jsonl": "cannot write /proc/out.jsonl",
     "--overlay=/proc/out.png": "cannot write /proc/out.png",
     "--forgive-bits=-1": "forgive_bits must be 0 or more, got -1",
+    "--forgive-bits=9": "forgive_bits must be 0 to 5, which is what tag36h11 can correct",
     "--forgive-bits=few": "'--forgive-bits'",
     "--min-side=nan": "min_side_px must be at least 4, got nan",
     "--min-side=-inf": "min_side_px must be at least 4",

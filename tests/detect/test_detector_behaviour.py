@@ -270,3 +270,16 @@ def test_dim_and_flat_light_are_enough() -> None:
     fall_off = np.linspace(0.6, 1.2, shown.grey.shape[1])
     picture = np.asarray(shown.grey * fall_off, dtype=np.uint8)
     assert only(Detector().detect(picture)).id == 7
+
+
+@pytest.mark.parametrize("marker_id", range(4))
+def test_a_wide_border_is_not_taken_for_a_narrow_one(marker_id: int) -> None:
+    """Its inner ring and its bits read well, but there is no edge where the corners would be."""
+    shown = scene(
+        np.random.default_rng(marker_id), 100.0, family="tag36h11_border2", marker_id=marker_id
+    )
+    for found in Detector(["tag36h11"]).detect(shown.grey):  # some still read, with wrong bits
+        np.testing.assert_allclose(found.corners_px, shown.corners_px, atol=0.1)
+        assert found.hamming > 0
+    found = only(Detector(["tag36h11_border2"]).detect(shown.grey))
+    np.testing.assert_allclose(found.corners_px, shown.corners_px, atol=0.1)

@@ -36,7 +36,7 @@ class Detector:
     Args:
         families: Names, or families of your own.
         forgive_bits: Wrong bits to forgive, for all families; by default each family's own
-            `forgiven_bits`.
+            `forgiven_bits`. More than a family's `correction_bits` gives nearest codes, not ids.
         inverted: Look for markers printed white on black as well.
         min_side_px: Sides of markers shorter than this are not looked for; by default 8, and more
             in images of more than two megapixels.

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from tagmetry.camera import Camera, Image
 from tagmetry.detect import Detection, Detector, Findings
+from tagmetry.errors import InputError
 from tagmetry.files.text import named_errors
 from tagmetry.pose import MarkerPose, estimate_poses
 from tagmetry.pose.marker import check_size
@@ -32,6 +33,8 @@ class Measurement:
         for size_m in by_id.values():
             if size_m is not None:
                 check_size(size_m)
+
+        _check_forgiven(self.detector)
 
     def measure(self, image: Image) -> ImageResult:
         """Return the markers of an image, with their poses where they can be known."""
@@ -73,3 +76,14 @@ class Measurement:
         if isinstance(self.sizes_m, Mapping):
             return self.sizes_m.get(detection.id)
         return self.sizes_m
+
+
+def _check_forgiven(detector: Detector) -> None:
+    """Refuse what would give wrong ids: a code nearer to another marker cannot be told apart."""
+    forgiven = detector.rules.forgive_bits
+    for one in detector.families:
+        if forgiven is not None and forgiven > one.correction_bits:
+            raise InputError(
+                f"forgive_bits must be 0 to {one.correction_bits}, which is what {one.name} can "
+                f"correct, got {forgiven}"
+            )

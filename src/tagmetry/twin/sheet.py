@@ -1,4 +1,4 @@
-"""Printed sheets: flat grids of cells of one reflectance each, printed one over the other.
+"""Printed sheets: grids of cells of one reflectance each, one printed over the other.
 
 Frame: `sheet` has its origin at the sheet's centre, x to its right, y to its top, z out of its face.
 """
