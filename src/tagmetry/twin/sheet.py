@@ -1,6 +1,6 @@
 """Printed sheets: grids of cells of one reflectance each, one printed over the other.
 
-Frame: `sheet` has its origin at the sheet's centre, x to its right, y to its top, z out of its face.
+Frame: `sheet` has its origin at the sheet's centre, x right, y to its top, z out of its face.
 """
 
 from dataclasses import dataclass
