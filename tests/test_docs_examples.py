@@ -56,7 +56,7 @@ SAID = {
     "detect.py": "tag36h11 7 ",
     "doctor.sh": "tag36h11",
     "floor_positions.py": "robot 1: +0.20",
-    "pose.py": "tag36h11 8: +0.2000 -0.000",
+    "pose.py": "tag36h11 8: +0.2000 ",
     "read_results.py": "photo.png 7 ",
     "robot_position.py": "camera at [ 4.15",
     "wall_body.py": "from 2 markers",
