@@ -17,8 +17,7 @@ import numpy as np
 
 from tagmetry.geometry.arrays import AnyPixels, Array, BoolArray, GreyPixels
 
-_DARKER_BY = 6  # grey values below the neighbourhood's mean, at least
-_NOISES = 2.0  # and at least so many standard deviations of the noise
+_DARKER_BY = 6  # grey values below the neighbourhood's mean
 _CLEAR = 20  # grey values between the darkest and the brightest around
 _STRAIGHT = 0.04  # how far an outline may stray from its polygon, as a share of its length
 _LEAST_ANGLE_SINE = 0.2
@@ -79,9 +78,8 @@ def quads(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
         bright: Bright squares on dark as well; the inside of a wide black border is one, too.
     """
     height_px, width_px = grey.shape
-    darker_by = max(_DARKER_BY, round(_NOISES * noise(grey)))
     found = [
-        _quads_of_pass(grey, one, min_side_px, darker_by, bright)
+        _quads_of_pass(grey, one, min_side_px, bright)
         for one in passes(width_px, height_px, min_side_px)
     ]
     return Squares(
@@ -90,16 +88,14 @@ def quads(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
     )
 
 
-def _quads_of_pass(
-    grey: GreyPixels, one: Pass, min_side_px: float, darker_by: int, bright: bool
-) -> Squares:
+def _quads_of_pass(grey: GreyPixels, one: Pass, min_side_px: float, bright: bool) -> Squares:
     scaled = grey
     if one.scale != 1.0:
         scaled = np.asarray(
             cv2.resize(grey, None, fx=one.scale, fy=one.scale, interpolation=cv2.INTER_CUBIC),
             dtype=np.uint8,
         )
-    dark = _dark(scaled, one, darker_by)
+    dark = _dark(scaled, one)
     outset_px = 1.5 if one.thinned else 0.5
     outlines, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_NONE)
     found = list(_four_sided(outlines, one.scale * min_side_px, outset_px, bright))
@@ -108,29 +104,15 @@ def _quads_of_pass(
     return Squares((corners + 0.5) / one.scale - 0.5, is_bright)
 
 
-def noise(grey: GreyPixels) -> float:
-    """Return the standard deviation of the noise, from the median response to a mask.
-
-    The mask is blind to planes and straight edges (J. Immerkaer, Fast noise variance estimation,
-    1996); the median instead of the mean passes over texture.
-    """
-    mask = np.array([[1, -2, 1], [-2, 4, -2], [1, -2, 1]], dtype=np.float32)
-    response = cv2.filter2D(grey, cv2.CV_16S, mask)[1:-1:3, 1:-1:3]
-    return float(np.median(np.abs(response))) / (0.6745 * 6.0)
-
-
-def _dark(grey: GreyPixels, one: Pass, darker_by: int) -> AnyPixels:
+def _dark(grey: GreyPixels, one: Pass) -> AnyPixels:
     """Return what is dark in a pass as 255, the rest as 0."""
-    if one.midway:
-        dark = _below_midway(grey, one.window_px)
-    else:
-        dark = _below_mean(grey, one.window_px, darker_by)
+    dark = (_below_midway if one.midway else _below_mean)(grey, one.window_px)
     return cv2.erode(dark, np.ones((3, 3), np.uint8)) if one.thinned else dark
 
 
-def _below_mean(grey: GreyPixels, window_px: int, darker_by: int) -> AnyPixels:
+def _below_mean(grey: GreyPixels, window_px: int) -> AnyPixels:
     method, kind = cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV
-    return cv2.adaptiveThreshold(grey, 255, method, kind, window_px, darker_by)
+    return cv2.adaptiveThreshold(grey, 255, method, kind, window_px, _DARKER_BY)
 
 
 def _below_midway(grey: GreyPixels, window_px: int) -> AnyPixels:
