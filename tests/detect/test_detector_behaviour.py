@@ -283,3 +283,17 @@ def test_a_wide_border_is_not_taken_for_a_narrow_one(marker_id: int) -> None:
         assert found.hamming > 0
     found = only(Detector(["tag36h11_border2"]).detect(shown.grey))
     np.testing.assert_allclose(found.corners_px, shown.corners_px, atol=0.1)
+
+
+@pytest.mark.parametrize("marker_id", range(4))
+def test_the_inside_of_a_wide_border_is_turned_down_where_bright_squares_count(
+    marker_id: int,
+) -> None:
+    """`explain` and inverted markers look at bright squares as well; both must not fall for it."""
+    shown = scene(
+        np.random.default_rng(marker_id), 100.0, family="tag36h11_border2", marker_id=marker_id
+    )
+    findings = Detector(["tag36h11"]).explain(shown.grey)
+    inverted_too = Detector(["tag36h11"], inverted=True).detect(shown.grey)
+    for found in (*findings.detections, *inverted_too):
+        np.testing.assert_allclose(found.corners_px, shown.corners_px, atol=0.1)
