@@ -12,11 +12,10 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
-from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.geometry.arrays import FloatImage, GreyPixels
 from tagmetry.markers import MountedMarker
 from tagmetry.twin.coverage import footprint_means
 from tagmetry.twin.rays import Rays
@@ -28,7 +27,6 @@ _STEP_VARIANCE = (
 )  # an edge within a fine pixel becomes two steps: this much wider, on average
 _FINEST = 4
 _MARGIN_PX = 2
-FloatImage = NDArray[np.float32]
 
 
 @dataclass(frozen=True)
