@@ -3,6 +3,7 @@
 from tagmetry.markers.board import Board
 from tagmetry.markers.bodies import MarkerBody, MountedMarker, cube, marker_corners_m
 from tagmetry.markers.chessboards import CharucoBoard, Chessboard
+from tagmetry.markers.circles import CircleGrid
 from tagmetry.markers.family import MarkerFamily
 from tagmetry.markers.generate import generate_family
 from tagmetry.markers.grids import AprilGrid, GridBoard
@@ -14,6 +15,7 @@ __all__ = [
     "Board",
     "CharucoBoard",
     "Chessboard",
+    "CircleGrid",
     "GridBoard",
     "Layout",
     "MarkerBody",

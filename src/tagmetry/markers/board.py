@@ -24,11 +24,27 @@ class Board(Protocol):
     def height_m(self) -> float:
         """Height of the pattern without margins."""
 
+    @property
+    def corners_m(self) -> Array:
+        """The points that calibration uses, shape (n, 3), metres.
+
+        Inner corners of a chessboard, rows from the top; four corners of every marker of a grid, in
+        the order of `markers()`, clockwise from the marker's top left; centres of discs.
+        """
+
     def markers(self) -> tuple[MountedMarker, ...]:
         """The markers at their places, none on a plain chessboard."""
 
     def black_squares_m(self) -> Array:
         """Lower left corner and side of the plain black squares, (n, 3): x, y, side."""
+
+    def circles_m(self) -> Array:
+        """The plain black discs, (n, 3): x and y of the centre, radius."""
+
+
+def no_circles_m() -> Array:
+    """Return the discs of a board that has none."""
+    return np.zeros((0, 3))
 
 
 def flat_at(x_m: float, y_m: float) -> RigidTransform:

@@ -7,7 +7,7 @@ import numpy as np
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
-from tagmetry.markers.board import check_counts, check_lengths, flat_at
+from tagmetry.markers.board import check_counts, check_lengths, flat_at, no_circles_m
 from tagmetry.markers.bodies import MarkerBody, MountedMarker
 
 
@@ -53,6 +53,10 @@ class Chessboard:
         return _black_squares_m(
             self.corner_columns + 1, self.corner_rows + 1, self.square_m, first_black=True
         )
+
+    def circles_m(self) -> Array:
+        """None."""
+        return no_circles_m()
 
 
 @dataclass(frozen=True)
@@ -121,6 +125,10 @@ class CharucoBoard:
     def black_squares_m(self) -> Array:
         """The black squares of the chessboard."""
         return _black_squares_m(self.columns, self.rows, self.square_m, self.first_black)
+
+    def circles_m(self) -> Array:
+        """None."""
+        return no_circles_m()
 
     def body(self) -> MarkerBody:
         """The board's markers as a rigid body."""

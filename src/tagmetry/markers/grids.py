@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tagmetry.geometry import Array
-from tagmetry.markers.board import check_counts, check_lengths, flat_at
+from tagmetry.markers.board import check_counts, check_lengths, flat_at, no_circles_m
 from tagmetry.markers.bodies import MarkerBody, MountedMarker
 
 
@@ -46,6 +46,11 @@ class GridBoard:
         """Height of the pattern without margins."""
         return self.rows * self.size_m + (self.rows - 1) * self.gap_m
 
+    @property
+    def corners_m(self) -> Array:
+        """Four corners of every marker, in the order of `markers()`, shape (4 * n, 3), metres."""
+        return np.concatenate([marker.corners_m for marker in self.markers()])
+
     def markers(self) -> tuple[MountedMarker, ...]:
         """The markers at their places."""
         return tuple(
@@ -56,6 +61,10 @@ class GridBoard:
     def black_squares_m(self) -> Array:
         """None: a grid board has only markers."""
         return np.zeros((0, 3))
+
+    def circles_m(self) -> Array:
+        """None."""
+        return no_circles_m()
 
     def body(self) -> MarkerBody:
         """The board as a rigid body."""
@@ -111,6 +120,11 @@ class AprilGrid:
         """Height of the pattern with the outer small squares."""
         return self.grid.height_m + 2 * self.grid.gap_m
 
+    @property
+    def corners_m(self) -> Array:
+        """Four corners of every tag, in the order of `markers()`, shape (4 * n, 3), metres."""
+        return self.grid.corners_m
+
     def markers(self) -> tuple[MountedMarker, ...]:
         """The tags at their places."""
         return self.grid.markers()
@@ -122,6 +136,10 @@ class AprilGrid:
         y = -self.height_m / 2 + pitch_m * np.arange(self.rows + 1)
         across, up = np.meshgrid(x, y)
         return np.stack([across.ravel(), up.ravel(), np.full(across.size, gap_m)], axis=1)
+
+    def circles_m(self) -> Array:
+        """None."""
+        return no_circles_m()
 
     def body(self) -> MarkerBody:
         """The board as a rigid body."""
