@@ -48,3 +48,16 @@ class BoardView:
     def size_px(self) -> tuple[int, int]:
         """(width, height) of the picture."""
         return self.width_px, self.height_px
+
+
+@dataclass(frozen=True)
+class RejectedView:
+    """A picture that takes no part in a calibration, and why.
+
+    Attributes:
+        source: The picture's path or place in a video.
+        reason: What is wrong with it, in words.
+    """
+
+    source: str
+    reason: str
