@@ -1,5 +1,6 @@
 """The camera model, its images, and what a source of images must be."""
 
+from tagmetry.camera.bank import Approach, BankNode, CameraBank, Gap, LeftOut, Repeat
 from tagmetry.camera.image import Image
 from tagmetry.camera.lens import BrownLens, FisheyeLens, Lens
 from tagmetry.camera.model import Camera
@@ -8,12 +9,18 @@ from tagmetry.camera.resize import cropped, rotated, scaled, zoomed
 from tagmetry.camera.source import Source
 
 __all__ = [
+    "Approach",
+    "BankNode",
     "BrownLens",
     "Camera",
+    "CameraBank",
     "DistortionReach",
     "FisheyeLens",
+    "Gap",
     "Image",
+    "LeftOut",
     "Lens",
+    "Repeat",
     "Source",
     "cropped",
     "distortion_reach",
