@@ -1,0 +1,21 @@
+"""Boards in pictures: which points of a board a picture shows, where, and how certain."""
+
+from tagmetry.calibrate.targets.find import (
+    BoardFindings,
+    RejectedView,
+    explain_board,
+    find_board,
+)
+from tagmetry.calibrate.targets.found import DroppedPoint
+from tagmetry.calibrate.targets.quality import QualityLimits, ViewQuality, view_quality
+
+__all__ = [
+    "BoardFindings",
+    "DroppedPoint",
+    "QualityLimits",
+    "RejectedView",
+    "ViewQuality",
+    "explain_board",
+    "find_board",
+    "view_quality",
+]

@@ -1,0 +1,92 @@
+"""Find a ChArUco board, or a part of it: markers say which corner is which and about where.
+
+Each chessboard corner is predicted from the markers around it by a homography of its own, which
+follows a lens' distortion, and fitted to the pixels like any chessboard corner, without the pixels
+that may belong to a marker.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from tagmetry.calibrate.targets.corners import refined
+from tagmetry.calibrate.targets.found import Found, NotFound
+from tagmetry.calibrate.targets.homography import fitted_homography
+from tagmetry.calibrate.targets.seen_markers import SeenMarkers, on_one_plane, see_markers
+from tagmetry.geometry import Array, apply_homography
+from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.markers import CharucoBoard
+
+_AROUND = 1.9  # squares from a corner to the centres of the markers that predict it
+_TOUCHING = 0.75  # squares from a corner to the centres of the markers that touch it
+_LEAST_ARM = 0.05
+_LEAST_SHARE = 0.6
+
+
+def find_charuco(grey: GreyPixels, board: CharucoBoard) -> Found | NotFound:
+    """Return the chessboard corners of a ChArUco board.
+
+    Args:
+        grey: 8-bit image, shape (height, width).
+        board: What to look for.
+    """
+    seen = see_markers(grey, board)
+    count = len(board.markers())
+    if not len(seen.places):
+        return NotFound(f"none of the board's {count} markers ({board.family}) is seen")
+    if (reason := _disagreement(board, seen)) is not None:
+        return NotFound(reason, seen.corners_px.reshape(-1, 2))
+    return _corners(grey, board, seen.agreeing())
+
+
+def _disagreement(board: CharucoBoard, seen: SeenMarkers) -> str | None:
+    """Say that the markers are arranged otherwise, and how if it is the other layout."""
+    told = f"{len(seen.places)} markers are seen, but not arranged as this board's"
+    other = replace(board, legacy=not board.legacy)
+    agreeing = float(seen.agree.mean())
+    if on_one_plane(other, seen.places, seen.corners_px).mean() > agreeing:
+        layout = "old layout (legacy)" if other.legacy else "new layout (not legacy)"
+        return f"{told}; they fit the {layout}"
+    if agreeing < _LEAST_SHARE:
+        return f"{told}; check columns, rows and the first id"
+    return None
+
+
+def _corners(grey: GreyPixels, board: CharucoBoard, seen: SeenMarkers) -> Found | NotFound:
+    points, predicted = [], []
+    markers_m = np.stack([marker.corners_m[:, :2] for marker in board.markers()])[seen.places]
+    distances = (
+        np.linalg.norm(board.corners_m[:, None, :2] - markers_m.mean(axis=1), axis=2)
+        / board.square_m
+    )  # of every corner from every marker, in squares
+    for point, near in enumerate(distances):
+        if near.min() < _TOUCHING:
+            around = near < _AROUND
+            place = board.corners_m[point, :2]
+            points.append(point)
+            predicted.append(_predict(place, markers_m[around], seen.corners_px[around], board))
+    if not points:
+        return NotFound("markers of the board are seen, but none at a corner of its squares")
+    guesses, along, down = np.moveaxis(np.array(predicted), 1, 0)
+    return refined(
+        grey,
+        np.array(points),
+        guesses,
+        along - guesses,
+        down - guesses,
+        arm=_arm(board, along - guesses),
+    )
+
+
+def _predict(place_m: Array, markers_m: Array, markers_px: Array, board: CharucoBoard) -> Array:
+    """Return where a corner and its next ones to the right and below are, shape (3, 2)."""
+    H = fitted_homography(markers_m.reshape(-1, 2), markers_px.reshape(-1, 2))
+    steps = board.square_m * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, -1.0]])
+    return apply_homography(H, place_m + steps)
+
+
+def _arm(board: CharucoBoard, along_px: Array) -> float:
+    """Return how far from an edge no marker lies, in squares, less a pixel of blur."""
+    white = (1 - board.size_m / board.square_m) / 2
+    square_px = float(np.nanmedian(np.linalg.norm(along_px, axis=1)))
+    return max(_LEAST_ARM, white - 1.0 / max(square_px, 1.0))

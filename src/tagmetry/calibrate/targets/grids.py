@@ -1,0 +1,80 @@
+"""Find a board of markers in rows and columns; any part of it will do.
+
+A plain grid's corners are the detector's, with its covariance. On an AprilGrid a small black square
+touches every corner, which disturbs the detector's sides and makes the corner a crossing of two
+edges: it is fitted like that of a chessboard.
+"""
+
+import numpy as np
+
+from tagmetry.calibrate.targets.corners import refined
+from tagmetry.calibrate.targets.found import DroppedPoint, Found, NotFound
+from tagmetry.calibrate.targets.seen_markers import SeenMarkers, see_markers
+from tagmetry.geometry.arrays import GreyPixels, IntArray
+from tagmetry.markers import AprilGrid, GridBoard, family
+
+_EDGE_PX = 2.0
+_WORST_SD_PX = 1.0
+_WITHIN = 0.95  # share of the border or of the small square that a corner's window may reach
+
+
+def find_grid(grey: GreyPixels, board: GridBoard) -> Found | NotFound:
+    """Return the corners of a grid's markers, with the detector's own covariance.
+
+    Args:
+        grey: 8-bit image, shape (height, width).
+        board: What to look for.
+    """
+    seen = see_markers(grey, board)
+    return _corners(grey, seen) if seen.agree.any() else _nothing(board, seen)
+
+
+def find_aprilgrid(grey: GreyPixels, board: AprilGrid) -> Found | NotFound:
+    """Return the corners of an AprilGrid's tags, each fitted as a crossing of two edges.
+
+    Args:
+        grey: 8-bit image, shape (height, width).
+        board: What to look for.
+    """
+    seen = see_markers(grey, board)
+    if not seen.agree.any():
+        return _nothing(board.grid, seen)
+    sure = seen.agreeing()
+    corners_px = sure.corners_px
+    onward = np.roll(corners_px, -1, axis=1) - corners_px
+    back = np.roll(corners_px, 1, axis=1) - corners_px
+    places_px, along_px, down_px = (part.reshape(-1, 2) for part in (corners_px, onward, back))
+    layout = family(board.family).layout
+    half = _WITHIN * min(layout.border_cells / layout.side_cells, board.spacing)
+    return refined(grey, _points(sure), places_px, along_px, down_px, half=half)
+
+
+def _nothing(board: GridBoard, seen: SeenMarkers) -> NotFound:
+    count = board.columns * board.rows
+    reason = f"none of the board's {count} markers ({board.family}) is seen"
+    return NotFound(reason, seen.corners_px.reshape(-1, 2))
+
+
+def _points(seen: SeenMarkers) -> IntArray:
+    return np.asarray((4 * seen.places[:, None] + np.arange(4)).ravel(), dtype=np.int64)
+
+
+def _corners(grey: GreyPixels, seen: SeenMarkers) -> Found:
+    points, places_px = _points(seen), seen.corners_px.reshape(-1, 2)
+    variances = np.diagonal(seen.covariances_px2, axis1=1, axis2=2)
+    sd_px = np.sqrt(variances.reshape(-1, 2).mean(axis=1))
+    limit_px = np.array(grey.shape[::-1]) - 1 - _EDGE_PX
+    at_edge = ((places_px < _EDGE_PX) | (places_px > limit_px)).any(axis=1)
+    reasons = (
+        (np.repeat(~seen.agree, 4), "its marker is not where the others say"),
+        (np.asarray(at_edge), "at the picture's edge"),
+        (sd_px > _WORST_SD_PX, f"uncertain by more than {_WORST_SD_PX:g} px"),
+    )
+    bad = np.array([is_bad for is_bad, _ in reasons]).any(axis=0)
+    dropped = tuple(
+        DroppedPoint(
+            int(points[i]), places_px[i], next(why for is_bad, why in reasons if is_bad[i])
+        )
+        for i in np.flatnonzero(bad)
+    )
+    return Found(points[~bad], places_px[~bad], sd_px[~bad], dropped)
