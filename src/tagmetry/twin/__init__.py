@@ -1,5 +1,16 @@
 """Simulated optics and images behind the same interfaces as the real ones."""
 
-from tagmetry.twin.render import Look, render
+from tagmetry.twin.render import Look, Optics, Shot, Shutter, exposed, photograph, render
+from tagmetry.twin.scenes import Scene, Thing
 
-__all__ = ["Look", "render"]
+__all__ = [
+    "Look",
+    "Optics",
+    "Scene",
+    "Shot",
+    "Shutter",
+    "Thing",
+    "exposed",
+    "photograph",
+    "render",
+]

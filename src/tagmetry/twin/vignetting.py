@@ -16,7 +16,7 @@ from tagmetry.camera import Camera
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import FloatImage
-from tagmetry.twin.rays import Rays
+from tagmetry.twin.render.rays import Rays
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ is exact by Green's theorem,
     integral over Q of f dA = integral around Q of F dy,  F(x, y) = integral of f(s, y) ds, s <= x,
 
 with F linear in x within a cell: each side of Q is cut where it crosses the grid, and the midpoint
-rule is exact on the pieces. Sides are shared by neighbouring pixels and walked once. What remains
-is that a pixel's side is taken to be straight on the sheet, and the colour's mean to be taken over
-the sheet instead of the pixel: both of the order of a pixel's size by the distance, squared.
+rule is exact on the pieces. A footprint within one cell needs no walk. What remains is that a
+pixel's side is taken to be straight on the sheet, and the colour's mean to be taken over the sheet
+instead of the pixel: both of the order of a pixel's size by the distance, squared.
 
 Units: cells, x to the right from the sheet's left edge, y down from its top edge.
 """
@@ -34,45 +34,47 @@ def footprint_means(x: Array, y: Array, cells: Array) -> tuple[Array, Array]:
     """
     running = np.zeros((cells.shape[0], cells.shape[1] + 1))
     np.cumsum(cells, axis=1, out=running[:, 1:])
-    return _means(np.ascontiguousarray(x), np.ascontiguousarray(y), running)
+    cells = np.ascontiguousarray(cells, dtype=np.float64)
+    return _means(np.ascontiguousarray(x), np.ascontiguousarray(y), cells, running)
 
 
 @njit(cache=True, nogil=True)
-def _means(x: Array, y: Array, running: Array) -> tuple[Array, Array]:
+def _means(x: Array, y: Array, cells: Array, running: Array) -> tuple[Array, Array]:
     height, width = x.shape[0] - 1, x.shape[1] - 1
+    rows, columns = cells.shape
     colour, share = np.zeros((height, width)), np.zeros((height, width))
-    above = np.zeros((width, 2))
-    for column in range(width):
-        _walk(
-            x[0, column], y[0, column], x[0, column + 1], y[0, column + 1], running, above[column]
-        )
-    left, right, below = np.zeros(2), np.zeros(2), np.zeros(2)
     for row in range(height):
-        _walk(x[row, 0], y[row, 0], x[row + 1, 0], y[row + 1, 0], running, left)
         for column in range(width):
             x0, y0, x1, y1 = x[row, column], y[row, column], x[row, column + 1], y[row, column + 1]
             x2, y2 = x[row + 1, column + 1], y[row + 1, column + 1]
             x3, y3 = x[row + 1, column], y[row + 1, column]
-            _walk(x1, y1, x2, y2, running, right)
-            _walk(x3, y3, x2, y2, running, below)
+            left, right = min(x0, x1, x2, x3), max(x0, x1, x2, x3)
+            top, bottom = min(y0, y1, y2, y3), max(y0, y1, y2, y3)
+            if not (left < columns and right > 0.0 and top < rows and bottom > 0.0):
+                continue  # beside the sheet
             area = ((x2 - x0) * (y3 - y1) - (x3 - x1) * (y2 - y0)) / 2
-            if area != 0 and np.isfinite(area):
-                inside = (above[column, 1] + right[1] - below[1] - left[1]) / area
-                share[row, column] = min(max(inside, 0.0), 1.0)
-                colour[row, column] = (above[column, 0] + right[0] - below[0] - left[0]) / area
-            above[column, 0], above[column, 1] = below[0], below[1]
-            left[0], left[1] = right[0], right[1]
+            if area == 0 or not np.isfinite(area):
+                continue
+            if left >= 0.0 and top >= 0.0 and int(left) == int(right) and int(top) == int(bottom):
+                colour[row, column], share[row, column] = cells[int(top), int(left)], 1.0
+                continue
+            a, p = _walk(x0, y0, x1, y1, running)
+            b, q = _walk(x1, y1, x2, y2, running)
+            c, r = _walk(x2, y2, x3, y3, running)
+            d, s = _walk(x3, y3, x0, y0, running)
+            colour[row, column] = (a + b + c + d) / area
+            share[row, column] = min(max((p + q + r + s) / area, 0.0), 1.0)
     return colour, share
 
 
 @njit(cache=True, nogil=True)
-def _walk(x0: float, y0: float, x1: float, y1: float, running: Array, out: Array) -> None:
-    """Integrate F dy along a line, for the colour (out[0]) and for 1 on the sheet (out[1])."""
+def _walk(x0: float, y0: float, x1: float, y1: float, running: Array) -> tuple[float, float]:
+    """Integrate F dy along a line, for the colour and for 1 on the sheet."""
     rows, columns = running.shape[0], running.shape[1] - 1
-    out[0], out[1] = 0.0, 0.0
+    colour, inside = 0.0, 0.0
     dx, dy = x1 - x0, y1 - y0
-    if not (np.isfinite(dx) and np.isfinite(dy)) or dy == 0:
-        return
+    if dy == 0:
+        return colour, inside
     begin, end = _clipped(y0, dy, 0.0, float(rows))  # F is zero above and below the sheet
     t = begin
     while t < end:
@@ -83,14 +85,15 @@ def _walk(x0: float, y0: float, x1: float, y1: float, running: Array, out: Array
             leave = min(end, t + 1e-12)
         middle_x, rise = x0 + (t + leave) / 2 * dx, (leave - t) * dy
         if column >= columns:
-            out[0] += running[row, columns] * rise
-            out[1] += columns * rise
+            colour += running[row, columns] * rise
+            inside += columns * rise
         elif column >= 0:
             within = middle_x - column
-            colour = running[row, column + 1] - running[row, column]
-            out[0] += (running[row, column] + colour * within) * rise
-            out[1] += middle_x * rise
+            own = running[row, column + 1] - running[row, column]
+            colour += (running[row, column] + own * within) * rise
+            inside += middle_x * rise
         t = leave
+    return colour, inside
 
 
 @njit(cache=True, nogil=True)

@@ -17,7 +17,7 @@ from tagmetry.geometry import Array
 
 _STEP = 1e-6
 _TURNS = 50
-_REACHED = 1e-12
+_REACHED = 1e-11
 
 
 @dataclass(frozen=True)
@@ -64,16 +64,25 @@ def _bent(points: Array, k: Array, fisheye: bool) -> Array:
 def _straightened(bent_x: Array, bent_y: Array, k: Array, fisheye: bool) -> Array:
     """Return the directions (n, 3) whose bent rays are given."""
     rays = np.full((len(bent_x), 3), np.nan)
-    fold = np.inf if fisheye else _fold(k)
-    x, y = 0.0, 0.0
-    for i in range(len(bent_x)):
-        if fisheye:
+    if fisheye:
+        for i in range(len(bent_x)):
             rays[i] = _unbend_fisheye(bent_x[i], bent_y[i], k)
-            continue
-        x, y, reached = _unbend(bent_x[i], bent_y[i], x, y, k, fold)
-        if not reached:  # the neighbour's ray was no good start
-            x, y, reached = _unbend(bent_x[i], bent_y[i], bent_x[i], bent_y[i], k, fold)
-        if reached:
+        return rays
+    if not k.any():
+        rays[:, 0], rays[:, 1], rays[:, 2] = bent_x, bent_y, 1.0
+        return rays
+    fold = _fold(k)
+    x, y, last_x, last_y = 0.0, 0.0, 0.0, 0.0
+    slope = np.eye(2)  # d(ray) / d(bent ray), of a neighbour
+    for i in range(len(bent_x)):
+        ahead_x, ahead_y = 2.0 * x - last_x, 2.0 * y - last_y
+        last_x, last_y = x, y
+        x, y, reached = _step(bent_x[i], bent_y[i], ahead_x, ahead_y, k, slope)
+        if not (reached and x * x + y * y < fold):
+            x, y, reached = _unbend(bent_x[i], bent_y[i], last_x, last_y, k, slope)
+        if not (reached and x * x + y * y < fold):  # the neighbour's ray was no good start
+            x, y, reached = _unbend(bent_x[i], bent_y[i], bent_x[i], bent_y[i], k, slope)
+        if reached and x * x + y * y < fold:
             rays[i] = (x, y, 1.0)
         else:
             x, y = 0.0, 0.0
@@ -101,15 +110,30 @@ def _bend(x: float, y: float, k: Array) -> tuple[float, float]:
 
 
 @njit(cache=True, nogil=True)
-def _unbend(
-    bent_x: float, bent_y: float, x: float, y: float, k: Array, fold: float
+def _step(
+    bent_x: float, bent_y: float, x: float, y: float, k: Array, slope: Array
 ) -> tuple[float, float, bool]:
-    """Find the ray that is bent to a place, from a start; say whether it was reached."""
+    """Find the ray from one almost there, by a neighbour's slope; say whether it was reached."""
+    for _ in range(3):
+        at_x, at_y = _bend(x, y, k)
+        miss_x, miss_y = bent_x - at_x, bent_y - at_y
+        if abs(miss_x) + abs(miss_y) < _REACHED:
+            return x, y, True
+        x += slope[0, 0] * miss_x + slope[0, 1] * miss_y
+        y += slope[1, 0] * miss_x + slope[1, 1] * miss_y
+    return x, y, False
+
+
+@njit(cache=True, nogil=True)
+def _unbend(
+    bent_x: float, bent_y: float, x: float, y: float, k: Array, slope: Array
+) -> tuple[float, float, bool]:
+    """Find the ray that is bent to a place, from any start; keep the slope that was found."""
     for _ in range(_TURNS):
         at_x, at_y = _bend(x, y, k)
         miss_x, miss_y = bent_x - at_x, bent_y - at_y
         if abs(miss_x) + abs(miss_y) < _REACHED:
-            return x, y, x * x + y * y < fold
+            return x, y, True
         right_x, right_y = _bend(x + _STEP, y, k)
         low_x, low_y = _bend(x, y + _STEP, k)
         a, b = (right_x - at_x) / _STEP, (low_x - at_x) / _STEP
@@ -117,8 +141,14 @@ def _unbend(
         area = a * d - b * c
         if not area > 1e-9:
             return x, y, False
-        x += (d * miss_x - b * miss_y) / area
-        y += (a * miss_y - c * miss_x) / area
+        slope[0, 0], slope[0, 1], slope[1, 0], slope[1, 1] = (
+            d / area,
+            -b / area,
+            -c / area,
+            a / area,
+        )
+        x += slope[0, 0] * miss_x + slope[0, 1] * miss_y
+        y += slope[1, 0] * miss_x + slope[1, 1] * miss_y
     return x, y, False
 
 

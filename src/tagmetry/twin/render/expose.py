@@ -1,0 +1,87 @@
+"""The light on the sensor: what the pixels of a picture take in.
+
+    light = mean over the exposure of (the nearer sheets over the farther ones, spread)
+
+The image is made tile by tile, so that a large picture needs little memory and an empty one no
+time. Without a lens that defocuses, all sheets are laid over each other on the fine grid and spread
+together, which is exact; with one, each is spread by its own depth first (`layered`).
+"""
+
+from collections.abc import Sequence
+from functools import reduce
+
+import numpy as np
+
+from tagmetry.geometry.arrays import FloatImage
+from tagmetry.twin.render.box import Box, tiles
+from tagmetry.twin.render.fineness import fine_of, gaussian_reach_px
+from tagmetry.twin.render.grid import Grid
+from tagmetry.twin.render.layered import layered
+from tagmetry.twin.render.moments import Moment, moments
+from tagmetry.twin.render.paint import painted
+from tagmetry.twin.render.shot import Shot
+from tagmetry.twin.scenes.scene import Scene
+from tagmetry.twin.spread import Spread, pixel_means, spread
+from tagmetry.twin.vignetting import vignetted
+
+_TILE_PX = 192
+
+
+def exposed(scene: Scene, shot: Shot) -> FloatImage:
+    """Return the light on the sensor's pixels, shape (height, width); radiance of the scene.
+
+    Args:
+        scene: What there is to see.
+        shot: Who sees it.
+    """
+    tile_light = _together if shot.optics.lens is None else layered
+    during = moments(scene, shot)
+    light = np.full(shot.camera.size_px[::-1], scene.background, np.float32)
+    for tile in tiles(*shot.camera.size_px, _TILE_PX):
+        tile_light(light, tile, during, scene, shot)
+    return _through_the_lens(light, shot)
+
+
+def _together(
+    light: FloatImage, tile: Box, during: Sequence[Moment], scene: Scene, shot: Shot
+) -> None:
+    """Fill a tile: all sheets over each other, spread together."""
+    reach_px = gaussian_reach_px(shot.optics)
+    boxes = [one.box for moment in during for one in moment.seen if one.box & tile.grown(reach_px)]
+    if not boxes or not (region := tile & reduce(_around, boxes).grown(reach_px)):
+        return
+    grid = Grid(shot.camera, region.grown(reach_px), fine_of(shot))
+    canvas = np.zeros(grid.shape, np.float32)
+    for moment in during:
+        canvas += _canvas(grid, moment, scene) / np.float32(len(during))
+    done = pixel_means(spread(canvas, grid.fine, Spread(shot.optics.blur_px)), grid.fine)
+    light[region.pixels] = done[region.inside(grid.box)]
+
+
+def _canvas(grid: Grid, moment: Moment, scene: Scene) -> FloatImage:
+    """Return the sheets over each other on a grid, at a moment."""
+    canvas = np.full(grid.shape, scene.background, np.float32)
+    for one in moment.seen:
+        if box := one.box & grid.box:
+            patch = painted(one, box, grid, moment.view, scene.light)
+            window = canvas[box.inside(grid.box, grid.fine)]
+            window *= 1 - patch.share
+            window += patch.radiance
+    return canvas
+
+
+def _around(one: Box, other: Box) -> Box:
+    """Return the box around two."""
+    return Box(
+        min(one.left, other.left),
+        min(one.top, other.top),
+        max(one.right, other.right),
+        max(one.bottom, other.bottom),
+    )
+
+
+def _through_the_lens(light: FloatImage, shot: Shot) -> FloatImage:
+    """Darken the corners, and scatter some of the light over the whole image."""
+    light = vignetted(light, shot.camera, shot.optics.vignetting)
+    veil = np.float32(shot.optics.veil)
+    return light if veil == 0 else light * (1 - veil) + veil * light.mean()

@@ -1,0 +1,100 @@
+"""One sheet as the camera sees it: its light and its cover, exact on every point of a fine grid.
+
+A point of the grid is the mean of what its footprint shows (`coverage`, `dots`), at the pose that
+its row sees.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tagmetry.geometry import Array, RigidTransform
+from tagmetry.geometry.arrays import FloatImage
+from tagmetry.twin.render.box import Box
+from tagmetry.twin.render.coverage import footprint_means
+from tagmetry.twin.render.dots import disc_shares
+from tagmetry.twin.render.grid import Grid
+from tagmetry.twin.render.seen import SeenSheet, covered_box
+from tagmetry.twin.render.view import View
+from tagmetry.twin.scenes.light import Light
+from tagmetry.twin.scenes.sheet import Dot, Print, Sheet
+
+_SOLID = np.ones((1, 1))
+_ROWS_LOOKED_AT = 9
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """What a sheet adds to a picture, on the fine grid of a box.
+
+    Attributes:
+        radiance: Its light times its share of every point.
+        share: How much of every point it covers, 0 to 1.
+    """
+
+    radiance: FloatImage
+    share: FloatImage
+
+
+def painted(one: SeenSheet, box: Box, grid: Grid, view: View, light: Light) -> Patch:
+    """Return the light and the cover of a sheet in a box of pixels of a grid.
+
+    Args:
+        one: What is seen.
+        box: Where, within the grid.
+        grid: The grid.
+        view: Who sees it.
+        light: What shines on it.
+    """
+    sheet = one.sheet
+    Ts_camera_sheet = view.Ts_camera_thing(one.thing.path, grid.rows_px) * sheet.T_thing_sheet
+    x_m, y_m = grid.hits_m(box, Ts_camera_sheet)
+    _, share = footprint_means(x_m / sheet.width_m + 0.5, 0.5 - y_m / sheet.height_m, _SOLID)
+    ink = np.zeros_like(share)
+    for printed, own in _prints_within(sheet, box, Ts_camera_sheet, grid):
+        rows, columns = own.inside(box, grid.fine)
+        corners = slice(rows.start, rows.stop + 1), slice(columns.start, columns.stop + 1)
+        ink[rows, columns] += _ink_share(printed, x_m[corners], y_m[corners])
+    reflected = sheet.paper * share + (sheet.ink - sheet.paper) * ink
+    if light.lamps or light.ambient != 1.0:
+        reflected *= _lit(x_m, y_m, light, view.T_world_thing(one.thing.path) * sheet.T_thing_sheet)
+    radiance = reflected + sheet.glow * share
+    return Patch(radiance.astype(np.float32), share.astype(np.float32))
+
+
+def _prints_within(
+    sheet: Sheet, box: Box, Ts_camera_sheet: RigidTransform, grid: Grid
+) -> list[tuple[Print | Dot, Box]]:
+    """Return the prints that can be seen in a box, each with its own part of it."""
+    some = _some_of(Ts_camera_sheet)
+    boxes = [covered_box(one.half_m, one.center_m, some, grid.camera) for one in sheet.prints]
+    both = zip(sheet.prints, boxes, strict=True)
+    return [(one, own & box) for one, own in both if own & box]
+
+
+def _some_of(Ts_camera_sheet: RigidTransform) -> RigidTransform:
+    if Ts_camera_sheet.single:
+        return Ts_camera_sheet
+    return Ts_camera_sheet[np.linspace(0, len(Ts_camera_sheet) - 1, _ROWS_LOOKED_AT).astype(int)]
+
+
+def _ink_share(one: Print | Dot, x_m: Array, y_m: Array) -> Array:
+    x_m, y_m = x_m - one.center_m[0], y_m - one.center_m[1]
+    if isinstance(one, Dot):
+        return disc_shares(x_m, y_m, one.radius_m)
+    rows, columns = one.ink.shape
+    return footprint_means(x_m / one.cell_m + columns / 2, rows / 2 - y_m / one.cell_m, one.ink)[0]
+
+
+def _lit(x_m: Array, y_m: Array, light: Light, T_world_sheet: RigidTransform) -> Array:
+    """Return the light on the middle of every footprint."""
+    x_m, y_m = _middles(x_m), _middles(y_m)
+    p_sheet = np.nan_to_num(np.stack([x_m, y_m, np.zeros_like(x_m)], axis=-1))
+    p_world = T_world_sheet.apply(p_sheet.reshape(-1, 3)).reshape(p_sheet.shape)
+    return light.on(p_world, T_world_sheet.rotation.as_matrix()[:, 2])
+
+
+def _middles(corners: Array) -> Array:
+    return np.asarray(
+        (corners[:-1, :-1] + corners[:-1, 1:] + corners[1:, :-1] + corners[1:, 1:]) / 4
+    )
