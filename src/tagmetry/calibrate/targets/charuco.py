@@ -12,7 +12,7 @@ import numpy as np
 from tagmetry.calibrate.targets.corners import refined
 from tagmetry.calibrate.targets.found import Found, NotFound
 from tagmetry.calibrate.targets.homography import fitted_homography
-from tagmetry.calibrate.targets.seen_markers import SeenMarkers, on_one_plane, see_markers
+from tagmetry.calibrate.targets.seen_markers import SeenMarkers, off_plane, see_markers
 from tagmetry.geometry import Array, apply_homography
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import CharucoBoard
@@ -21,6 +21,7 @@ _AROUND = 1.9  # squares from a corner to the centres of the markers that predic
 _TOUCHING = 0.75  # squares from a corner to the centres of the markers that touch it
 _LEAST_ARM = 0.05
 _LEAST_SHARE = 0.6
+_DOUBTFUL = 0.05  # sides of a marker, mean
 
 
 def find_charuco(grey: GreyPixels, board: CharucoBoard) -> Found | NotFound:
@@ -43,13 +44,18 @@ def _disagreement(board: CharucoBoard, seen: SeenMarkers) -> str | None:
     """Say that the markers are arranged otherwise, and how if it is the other layout."""
     told = f"{len(seen.places)} markers are seen, but not arranged as this board's"
     other = replace(board, legacy=not board.legacy)
-    agreeing = float(seen.agree.mean())
-    if on_one_plane(other, seen.places, seen.corners_px).mean() > agreeing:
+    if _misfit(other, seen) < _misfit(board, seen) - _DOUBTFUL:
         layout = "old layout (legacy)" if other.legacy else "new layout (not legacy)"
         return f"{told}; they fit the {layout}"
-    if agreeing < _LEAST_SHARE:
+    if seen.agree.mean() < _LEAST_SHARE:
         return f"{told}; check columns, rows and the first id"
     return None
+
+
+def _misfit(board: CharucoBoard, seen: SeenMarkers) -> float:
+    """Return how far the markers are off, in sides of a marker, one that is lost counting as 1."""
+    off = off_plane(board, seen.places, seen.corners_px)
+    return float(np.minimum(off, 1.0).mean())
 
 
 def _corners(grey: GreyPixels, board: CharucoBoard, seen: SeenMarkers) -> Found | NotFound:

@@ -43,44 +43,49 @@ def find_chessboard(
         thorough: Try the slow finder where the quick one sees nothing.
     """
     wanted = f"{board.corner_columns}x{board.corner_rows} inner corners"
-    coarse = _coarse(grey, board, thorough=thorough)
-    if coarse is None:
-        return NotFound(f"no chessboard with {wanted} is seen whole")
-    grid_px, px_per_px = coarse
-    greys = square_greys(grey, grid_px)
-    if not is_even(grid_px) or share_alternating(greys) < _LEAST_ALTERNATING:
-        return NotFound(
-            f"corners were seen, but not as {wanted} of one board: squares do not alternate",
+    nothing = NotFound(f"no chessboard with {wanted} is seen whole")
+    for grid_px, coarse_px in _seen(grey, board, thorough=thorough):
+        greys = square_greys(grey, grid_px)
+        if is_even(grid_px) and share_alternating(greys) >= _LEAST_ALTERNATING:
+            return _measured(grey, grid_px, coarse_px)
+        nothing = NotFound(
+            f"corners are seen, but not as {wanted} of one board in even rows of alternating "
+            "squares",
             grid_px.reshape(-1, 2),
         )
+    return nothing
+
+
+def _measured(grey: GreyPixels, grid_px: Array, coarse_px: float) -> Found | NotFound:
+    """Count the corners as the board does, and fit each."""
     ordered = in_board_order(grid_px, lambda one: first_is_black(square_greys(grey, one)))
     along = np.gradient(ordered, axis=1).reshape(-1, 2)
     down = np.gradient(ordered, axis=0).reshape(-1, 2)
-    count = board.corner_columns * board.corner_rows
-    found = refined(
-        grey, np.arange(count), ordered.reshape(-1, 2), along, down, coarse_px=px_per_px
-    )
+    places_px = ordered.reshape(-1, 2)
+    count = len(places_px)
+    found = refined(grey, np.arange(count), places_px, along, down, coarse_px=coarse_px)
     if len(found.points) < _LEAST_KEPT * count:
         why = found.dropped[0].reason
-        return NotFound(f"only {len(found.points)} of {wanted} are good: {why}", found.corners_px)
+        return NotFound(f"only {len(found.points)} of {count} corners are good: {why}", places_px)
     return found
 
 
-def _coarse(grey: GreyPixels, board: Chessboard, *, thorough: bool) -> tuple[Array, float] | None:
-    """Return the corners (rows, columns, 2) to a pixel or so of the picture they were seen in.
+def _seen(grey: GreyPixels, board: Chessboard, *, thorough: bool) -> Iterator[tuple[Array, float]]:
+    """Give what finders see, (rows, columns, 2), good to a pixel or so of what they looked at.
 
-    With them comes how many of the image's pixels such a pixel is.
+    With it comes how many of the image's pixels such a pixel is.
     """
     size = (board.corner_columns, board.corner_rows)
     for picture, scale in _pictures(grey):
         found, corners = cv2.findChessboardCorners(picture, size, flags=_CLASSIC)
         if found:
-            return _full_size(corners, size, scale), scale
+            yield _full_size(corners, size, scale), scale
     if not thorough:
-        return None
+        return
     picture, scale = next(_pictures(grey))
     found, corners = cv2.findChessboardCornersSB(picture, size, flags=_SECTOR)
-    return (_full_size(corners, size, scale), scale) if found else None
+    if found:
+        yield _full_size(corners, size, scale), scale
 
 
 def _pictures(grey: GreyPixels) -> Iterator[tuple[GreyPixels, float]]:

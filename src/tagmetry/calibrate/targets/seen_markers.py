@@ -12,7 +12,7 @@ from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 from tagmetry.markers import Board
 
 _FEW = 2
-_FARTHEST = 0.6  # of a marker's side: how far a corner may lie from where one plane puts it
+_FARTHEST = 0.6  # sides of a marker: how far a corner may be off; leaves room for distortion
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,23 +54,25 @@ def see_markers(grey: GreyPixels, board: Board) -> SeenMarkers:
     places = np.array([wanted[one.id] for one in detections], dtype=np.int64)
     corners_px = np.array([one.corners_px for one in detections]).reshape(-1, 4, 2)
     covariances = np.array([one.corners_cov_px2 for one in detections]).reshape(-1, 8, 8)
-    return SeenMarkers(places, corners_px, covariances, on_one_plane(board, places, corners_px))
+    agree = off_plane(board, places, corners_px) < _FARTHEST
+    return SeenMarkers(places, corners_px, covariances, agree)
 
 
-def on_one_plane(board: Board, places: IntArray, corners_px: Array) -> BoolArray:
-    """Return which markers lie where one view of the flat board puts them, shape (n,).
+def off_plane(board: Board, places: IntArray, corners_px: Array) -> Array:
+    """Return how far markers lie from where one view of the flat board puts them, shape (n,).
 
-    The tolerance leaves room for a lens' distortion.
+    It is the distance of a marker's worst corner, in sides of a marker.
     """
     if len(places) < _FEW:
-        return np.ones(len(places), dtype=bool)
+        return np.zeros(len(places))
     markers = board.markers()
-    corners_m = np.stack([markers[place].corners_m[:, :2] for place in places])
+    corners_m = np.concatenate([markers[place].corners_m[:, :2] for place in places])
     sides_px = np.linalg.norm(np.roll(corners_px, -1, axis=1) - corners_px, axis=2).mean(axis=1)
-    farthest_px = _FARTHEST * float(np.median(sides_px))
-    H = fitted_homography(corners_m.reshape(-1, 2), corners_px.reshape(-1, 2), farthest_px)
-    expected = apply_homography(H, corners_m.reshape(-1, 2)).reshape(corners_px.shape)
-    return np.asarray(np.linalg.norm(expected - corners_px, axis=2).max(axis=1) < farthest_px)
+    side_px = float(np.median(sides_px))
+    H = fitted_homography(corners_m, corners_px.reshape(-1, 2), _FARTHEST * side_px)
+    expected = apply_homography(H, corners_m).reshape(corners_px.shape)
+    off_px = np.linalg.norm(expected - corners_px, axis=2).max(axis=1)
+    return np.asarray(np.nan_to_num(off_px, nan=np.inf) / side_px)
 
 
 @lru_cache(maxsize=16)
