@@ -37,11 +37,13 @@ def disc_kernel(radius: float) -> Array:
 def _area_to_axes(a: Array, b: Array, radius: float) -> Array:
     """Return F(a, b), signed, for broadcast corners."""
     wide, high = np.minimum(np.abs(a), radius), np.minimum(np.abs(b), radius)
-    leaves = np.minimum(wide, np.sqrt(radius**2 - high**2))
+    leaves = np.minimum(wide, np.sqrt((radius - high) * (radius + high)))
     area = high * leaves + _half_segment(wide, radius) - _half_segment(leaves, radius)
     return np.asarray(np.sign(a) * np.sign(b) * area)
 
 
 def _half_segment(x: Array, radius: float) -> Array:
     """Return S(x), the area under the circle from 0 to x."""
-    return np.asarray((x * np.sqrt(radius**2 - x**2) + radius**2 * np.arcsin(x / radius)) / 2)
+    return np.asarray(
+        (x * np.sqrt((radius - x) * (radius + x)) + radius**2 * np.arcsin(x / radius)) / 2
+    )

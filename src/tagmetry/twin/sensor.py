@@ -96,7 +96,7 @@ def developed(exposure: FloatImage, sensor: Sensor, rng: np.random.Generator) ->
     signal = sensor.gain * _gathered(np.maximum(exposure, 0), sensor, rng)
     code = sensor.response.code(sensor.black_level + (1 - sensor.black_level) * signal)
     pixels = _rounded(sensor.white_grey * code, sensor, rng)
-    return pixels if sensor.jpeg_quality is None else _through_jpeg(pixels, sensor.jpeg_quality)
+    return pixels if sensor.jpeg_quality is None else through_jpeg(pixels, sensor.jpeg_quality)
 
 
 def _gathered(exposure: FloatImage, sensor: Sensor, rng: np.random.Generator) -> FloatImage:
@@ -126,7 +126,7 @@ def _rounded(grey: FloatImage, sensor: Sensor, rng: np.random.Generator) -> Code
     return whole.astype(np.uint8) if sensor.bits == 8 else whole.astype(np.uint16)
 
 
-def _through_jpeg(pixels: CodedPixels, quality: int) -> CodedPixels:
+def through_jpeg(pixels: CodedPixels, quality: int) -> CodedPixels:
     """Return what is left of 8-bit pixels after JPEG."""
     _, packed = cv2.imencode(".jpg", pixels, [cv2.IMWRITE_JPEG_QUALITY, quality])
     return np.asarray(cv2.imdecode(packed, cv2.IMREAD_GRAYSCALE), np.uint8)

@@ -2,8 +2,8 @@
 
 Every point of the grid is the mean over its own area, so the mean of `fine` x `fine` spread points
 is the mean over the pixel, spread. For an edge seen by one pixel the width that comes out,
-squared, is 1/12 px^2 of the pixel plus exactly the kernel's second moment; the kernels are made to
-have those of the Gaussian, s^2, and of the disc, R^2 / 4 along each axis.
+squared, is 1/12 px^2 of the pixel plus the kernel's second moment; the kernels are made to have
+those of the Gaussian, s^2, and of the disc, R^2 / 4 along each axis.
 
 What the grid loses is where an edge lies within its point: an edge p of the way through is two
 steps of weights 1 - p and p, in the right place on average, but wider by (p (1 - p) - 1/6) h^2,
@@ -23,6 +23,7 @@ from tagmetry.twin.disc import disc_kernel
 
 _GAUSSIAN_REACH = 4.5  # standard deviations; 7e-6 of the light lies beyond
 _CELL_VARIANCE = 1 / 12
+_LEAST_DEVIATION = 1e-3  # points of the grid; samples of less are 0 beside the middle
 _LARGEST_PX = 500.0
 
 
@@ -88,7 +89,7 @@ def pixel_means(image: FloatImage, fine: int) -> FloatImage:
 
 
 def gaussian_kernel(deviation: float) -> Array:
-    """Return a sampled Gaussian of exactly this standard deviation, shape (n,), n odd, sum 1.
+    """Return a sampled Gaussian of this standard deviation, shape (n,), n odd, sum 1.
 
     Args:
         deviation: In points of the grid. Samples of a narrow Gaussian have less variance than it
@@ -96,10 +97,11 @@ def gaussian_kernel(deviation: float) -> Array:
     """
     reach = max(1, int(np.ceil(_GAUSSIAN_REACH * deviation)))
     at = np.arange(-reach, reach + 1)
-    kernel = np.exp(-((at / deviation) ** 2) / 2) if deviation > 0 else (at == 0) * 1.0
+    kernel = np.exp(-((at / max(deviation, _LEAST_DEVIATION)) ** 2) / 2)
     kernel /= kernel.sum()
-    missing = deviation**2 - kernel @ at**2
-    kernel[reach - 1 : reach + 2] += missing * np.array([0.5, -1.0, 0.5])
+    if deviation < 1:
+        missing = deviation**2 - kernel @ at**2
+        kernel[reach - 1 : reach + 2] += missing * np.array([0.5, -1.0, 0.5])
     return np.asarray(kernel)
 
 
