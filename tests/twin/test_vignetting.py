@@ -23,7 +23,7 @@ def test_cos4_of_a_pinhole_is_the_law_in_the_image_plane() -> None:
 
 
 def test_cos4_of_a_fisheye_goes_by_its_angle() -> None:
-    """An equidistant fisheye: the angle is the radius; behind the lens's plane there is no light."""
+    """An equidistant fisheye: the angle is the radius; no light comes from behind."""
     camera = Camera(101, 101, (30.0, 30.0), (50.0, 50.0), FisheyeLens((0.0, 0.0, 0.0, 0.0)))
     gain = gain_map(camera, Vignetting(cos4=1.0))
     angles_rad = (np.arange(101) - 50) / 30
