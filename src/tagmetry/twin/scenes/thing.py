@@ -60,11 +60,8 @@ def marker_sheet(
 
 def board_thing(board: Board, path: Path = _NOWHERE, *, margin_m: float = 0.02) -> Thing:
     """Return a board on a white paper with a margin."""
-    prints: list[Print | Dot] = [_square(*square) for square in board.black_squares_m()]
-    for marker in board.markers():
-        x_m, y_m, _ = marker.T_body_marker.translation
-        prints.append(_marker_print(marker, (float(x_m), float(y_m))))
-    paper = Sheet(board.width_m + 2 * margin_m, board.height_m + 2 * margin_m, tuple(prints))
+    prints = (*_squares(board.black_squares_m()), *_markers(board), *_dots(board))
+    paper = Sheet(board.width_m + 2 * margin_m, board.height_m + 2 * margin_m, prints)
     return Thing("board", (paper,), board.markers(), board, path)
 
 
@@ -106,6 +103,34 @@ def _marker_print(marker: MountedMarker, center_m: tuple[float, float]) -> Print
     own = family(marker.family)
     picture = own.picture(marker.id).astype(np.float64)
     return Print(1.0 - picture, marker.size_m / own.layout.side_cells, center_m)
+
+
+def _markers(board: Board) -> list[Print]:
+    places = [marker.T_body_marker.translation for marker in board.markers()]
+    return [
+        _marker_print(marker, (float(x_m), float(y_m)))
+        for marker, (x_m, y_m, _) in zip(board.markers(), places, strict=True)
+    ]
+
+
+def _dots(board: Board) -> list[Dot]:
+    return [Dot(radius_m, (x_m, y_m)) for x_m, y_m, radius_m in board.circles_m().tolist()]
+
+
+def _squares(squares_m: Array) -> list[Print]:
+    """Return black squares (left, low, side) as one print where they are cells of one grid."""
+    if len(squares_m) == 0:
+        return []
+    side_m = squares_m[0, 2]
+    cells = (squares_m[:, :2] - squares_m[:, :2].min(axis=0)) / side_m
+    whole = np.rint(cells).astype(int)
+    if not (np.allclose(cells, whole, atol=1e-6) and np.allclose(squares_m[:, 2], side_m)):
+        return [_square(*square) for square in squares_m.tolist()]
+    columns, rows = whole.max(axis=0) + 1
+    ink = np.zeros((rows, columns))
+    ink[rows - 1 - whole[:, 1], whole[:, 0]] = 1.0
+    left_m, low_m = squares_m[:, :2].min(axis=0)
+    return [Print(ink, side_m, (left_m + columns * side_m / 2, low_m + rows * side_m / 2))]
 
 
 def _square(left_m: float, low_m: float, side_m: float) -> Print:
