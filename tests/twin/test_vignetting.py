@@ -62,6 +62,15 @@ def test_light_is_multiplied_and_none_is_lost_without_vignetting() -> None:
     assert vignetted(LIGHT, CAMERA, Vignetting()) is LIGHT
 
 
+def test_a_large_image_has_the_same_law() -> None:
+    camera = Camera(1280, 720, (900.0, 880.0), (630.2, 371.0))
+    gain = gain_map(camera, Vignetting(0.8, (-0.1,)))
+    u, v = np.meshgrid(np.arange(1280), np.arange(720))
+    q = ((u - 630.2) / 900.0) ** 2 + ((v - 371.0) / 880.0) ** 2
+    expected = (0.2 + 0.8 / (1 + q) ** 2) * (1 - 0.1 * q)
+    np.testing.assert_allclose(gain, expected, atol=3e-5)
+
+
 def test_the_map_is_kept_and_cannot_be_changed() -> None:
     law = Vignetting(0.5)
     assert gain_map(CAMERA, law) is gain_map(CAMERA, Vignetting(0.5))

@@ -2,14 +2,15 @@
 
 Each point of the result is the mean over the disc that belongs to it. The image is spread by a few
 discs, levels a small factor apart; between two levels a point takes shares of both that are linear
-in R^2, so that the second moment, R^2 / 4, is its own. A disc's rim is thereby softened: at an edge
+in R^2, so that the second moment, R^2 / 4, is its own. The levels are the same for all images, so
+that tiles of one fit together. A disc's rim is thereby softened: at an edge
 the error stays below 0.3 % of the contrast. Each level is made only where it is needed.
 """
 
 import numpy as np
 
 from tagmetry.errors import InputError
-from tagmetry.geometry.arrays import Array, FloatImage, IntArray
+from tagmetry.geometry.arrays import Array, BoolArray, FloatImage
 from tagmetry.twin.spread import Spread, check_grid, spread
 
 _LEVEL_RATIO = 1.1
@@ -36,23 +37,30 @@ def spread_by_depth(
     levels = _levels_px(least, most)
     if len(levels) == 1:
         return spread(image, fine, Spread(gaussian_px, levels[0]))
-    result = np.zeros_like(image)
     place = _place_among(disc_px, levels)
-    for level, level_px in enumerate(levels):
-        share = np.maximum(1 - np.abs(place - np.float32(level)), 0)
-        _add_level(result, image, fine, Spread(gaussian_px, level_px), share)
+    result = np.zeros_like(image)
+    for level, (rows, columns) in enumerate(_windows(place, len(levels), fine)):
+        if rows.start < rows.stop and columns.start < columns.stop:
+            share = np.maximum(1 - np.abs(place[rows, columns] - np.float32(level)), 0)
+            by = Spread(gaussian_px, levels[level])
+            result[rows, columns] += share * _spread_within(image, rows, columns, fine, by)
     return result
 
 
 def _levels_px(least_px: float, most_px: float) -> list[float]:
-    """Return radii from the least to the greatest, a small factor apart."""
+    """Return the levels around radii from the least to the greatest."""
     if least_px == most_px:
         return [least_px]
-    begin = least_px if least_px >= _LEAST_DISC_PX else 0.0
-    first, last = max(least_px, _LEAST_DISC_PX), max(most_px, _LEAST_DISC_PX)
-    steps = int(np.ceil(np.log(last / first) / np.log(_LEVEL_RATIO)))
-    levels = [float(radius) for radius in np.geomspace(first, last, steps + 1)]
-    return levels if begin > 0 else [0.0, *levels]
+    first, last = (_steps(radius_px) for radius_px in (least_px, most_px))
+    steps = range(int(np.floor(first)), int(np.ceil(last)) + 1)
+    return [_LEAST_DISC_PX * _LEVEL_RATIO**step if step >= 0 else 0.0 for step in steps]
+
+
+def _steps(radius_px: float) -> float:
+    """Return a radius as a number of levels above the least disc; -1 is in focus."""
+    if radius_px < _LEAST_DISC_PX:
+        return float(radius_px / _LEAST_DISC_PX - 1)
+    return float(np.log(radius_px / _LEAST_DISC_PX) / np.log(_LEVEL_RATIO))
 
 
 def _place_among(disc_px: FloatImage | Array, levels_px: list[float]) -> FloatImage:
@@ -62,29 +70,32 @@ def _place_among(disc_px: FloatImage | Array, levels_px: list[float]) -> FloatIm
     return np.asarray(place, np.float32)
 
 
-def _add_level(
-    result: FloatImage, image: FloatImage, fine: int, by: Spread, share: FloatImage
-) -> None:
-    """Add a level where it has a share, spread from a cut-out as wide as the kernel needs."""
-    if not share.any():
-        return
+def _windows(place: FloatImage, levels: int, fine: int) -> list[tuple[slice, slice]]:
+    """Return for every level the rows and columns around the points that have a share of it."""
+    least, most = ([extreme(place, axis=axis) for axis in (1, 0)] for extreme in (np.min, np.max))
+    spans = [
+        [_span((low < level + 1) & (high > level - 1), fine) for level in range(levels)]
+        for low, high in zip(least, most, strict=True)
+    ]
+    return list(zip(*spans, strict=True))
+
+
+def _span(used: BoolArray, fine: int) -> slice:
+    """Return the whole pixels of one axis that hold used points, in points of the grid."""
+    at = np.flatnonzero(used)
+    return (
+        slice(int(at[0]) // fine * fine, (int(at[-1]) // fine + 1) * fine)
+        if len(at)
+        else slice(0, 0)
+    )
+
+
+def _spread_within(
+    image: FloatImage, rows: slice, columns: slice, fine: int, by: Spread
+) -> FloatImage:
+    """Return a window of the image spread, made from a cut-out as wide as the kernel needs."""
     reach = fine * (int(np.ceil(by.disc_px + 5 * by.gaussian_px)) + 1)
-    rows, columns = (_span(np.flatnonzero(share.any(axis=axis)), fine) for axis in (1, 0))
-    outer_rows, outer_columns = (_grown(span, reach) for span in (rows, columns))
-    done = spread(np.ascontiguousarray(image[outer_rows, outer_columns]), fine, by)
-    done = done[_within(rows, outer_rows), _within(columns, outer_columns)]
-    result[rows, columns] += share[rows, columns] * done
-
-
-def _span(at: IntArray, fine: int) -> slice:
-    """Return the whole pixels that hold points of one axis, in points of the grid."""
-    return slice(int(at[0]) // fine * fine, (int(at[-1]) // fine + 1) * fine)
-
-
-def _grown(span: slice, reach: int) -> slice:
-    """Return a span with what lies around it; slices end at the image's own end."""
-    return slice(max(span.start - reach, 0), span.stop + reach)
-
-
-def _within(inner: slice, outer: slice) -> slice:
-    return slice(inner.start - outer.start, inner.stop - outer.start)
+    top, left = max(rows.start - reach, 0), max(columns.start - reach, 0)
+    cut = np.ascontiguousarray(image[top : rows.stop + reach, left : columns.stop + reach])
+    done = spread(cut, fine, by)
+    return done[rows.start - top : rows.stop - top, columns.start - left : columns.stop - left]

@@ -144,16 +144,23 @@ def _filtered(image: FloatImage, kernel: Array) -> FloatImage:
 
 
 def _bend_of_edge(by: Spread) -> float:
-    """Return a bound on P'', the curvature of a pixel's response to an edge, 1 / px^2.
+    """Return P'', the greatest curvature of a pixel's response to an edge, 1 / px^2; or a bound.
 
-    It is the line spread's greatest change over one pixel. A Gaussian's peak is 0.399 / s and its
-    steepest slope 0.242 / s^2; a disc's line spread is 2 / (pi R) sqrt(1 - (x / R)^2), which
-    changes most within a pixel of its rim. Both together are smoother than either.
+    It is the line spread's greatest change over one pixel. A disc's line spread,
+    2 / (pi R) sqrt(1 - (x / R)^2), changes most within a pixel of its rim. A Gaussian and a disc
+    together are smoother than either.
     """
     bends = []
     if by.gaussian_px > 0:
-        bends.append(min(0.399 / by.gaussian_px, 0.242 / by.gaussian_px**2))
+        from_middle = np.linspace(0, 6, 601) * by.gaussian_px
+        bends.append(float(np.max(_line(from_middle, by) - _line(from_middle + 1, by))))
     if by.disc_px > 0:
         inward = max(1 - 1 / by.disc_px, 0.0)
         bends.append(2 / (np.pi * by.disc_px) * float(np.sqrt(1 - inward**2)))
     return min(bends)
+
+
+def _line(x_px: Array, by: Spread) -> Array:
+    """Return the line spread of the Gaussian, 1 / px."""
+    peak = 1 / (np.sqrt(2 * np.pi) * by.gaussian_px)
+    return np.asarray(peak * np.exp(-((x_px / by.gaussian_px) ** 2) / 2))
