@@ -1,0 +1,115 @@
+"""Views to the best camera of one kind: start, refine, drop what does not fit."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tagmetry.calibrate.bundle import Bundle, Freedom
+from tagmetry.calibrate.freedom import Wanted
+from tagmetry.calibrate.robust import lengths_in_sd, robust_scale, settle_softly, solve_robustly
+from tagmetry.calibrate.sightings import Sightings
+from tagmetry.calibrate.solve import solve
+from tagmetry.calibrate.start import starts
+from tagmetry.errors import InputError
+from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import BoolArray
+
+_GOOD_ENOUGH = 2.0  # times the error that homographies leave: no other start is tried
+_IN_PLANE, _OUT_OF_PLANE = 0.002, 0.01  # of the board's diagonal: print, and bow of the support
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A solved camera.
+
+    Attributes:
+        bundle: Camera, poses and board.
+        freedom: What was free.
+        seen: The corners that it fits; those that were dropped have no weight.
+    """
+
+    bundle: Bundle
+    freedom: Freedom
+    seen: Sightings
+
+    @property
+    def scale(self) -> float:
+        """Robust standard deviation of the errors, in units of the corners' own."""
+        return robust_scale(lengths_in_sd(self.bundle, self.seen), self.seen)
+
+
+def fit_flat(seen: Sightings, wanted: Wanted, *, robust: bool) -> Fit:
+    """Return the best camera when the board is as its maker says.
+
+    Raises:
+        InputError: No camera of this kind shows the board like that.
+    """
+    return refit(begin(seen, wanted), seen, wanted, robust=robust)
+
+
+def refit(start: Bundle, seen: Sightings, wanted: Wanted, *, robust: bool) -> Fit:
+    """Return the best camera near a start of the same or a simpler lens."""
+    freedom = Freedom(wanted.basis())
+    start = wanted.conform(start, seen.size_px)
+    if not robust:
+        return Fit(solve(start, seen, freedom).bundle, freedom, seen)
+    solution, kept = solve_robustly(start, seen, freedom)
+    return Fit(solution.bundle, freedom, seen.weighted(kept))
+
+
+def release_shape(flat: Fit, seen: Sightings, *, robust: bool) -> Fit:
+    """Return the best camera when the board's points may leave the maker's places.
+
+    How far is a matter of belief: one standard deviation is 0.2 % of the board's diagonal along
+    each axis of its plane (a printer's scale and paper that shrinks) and 1 % out of it (a bow).
+    The belief also settles what no picture tells: the board's own frame and scale. The corners'
+    sd is set to what the flat fit left, so that belief and measurement weigh as they should.
+    """
+    extent = float(np.linalg.norm(np.ptp(seen.p_board, axis=0)))
+    freedom = replace(
+        flat.freedom, shape_sd_m=extent * np.array([_IN_PLANE, _IN_PLANE, _OUT_OF_PLANE])
+    )
+    seen = replace(seen, weights=seen.weights / flat.scale**2)
+    if not robust:
+        return Fit(solve(flat.bundle, seen, freedom).bundle, freedom, seen)
+    solution, kept = solve_robustly(flat.bundle, seen, freedom)
+    return Fit(solution.bundle, freedom, seen.weighted(kept))
+
+
+def begin(seen: Sightings, wanted: Wanted) -> Bundle:
+    """Return the best of several starts after a short refinement.
+
+    Lenses with more than five coefficients start from five: the others need a good camera.
+    """
+    guesses, homography_error_px = starts(seen, wanted.kind, min(wanted.coefficients, 5))
+    basis = wanted.basis()
+    width = 4 + min(wanted.coefficients, 5)
+    basis = basis[:width, np.abs(basis[:width]).any(axis=0)]
+    tried: list[tuple[float, Bundle]] = []
+    for guess in guesses:
+        start = _held(guess, wanted, seen.size_px)
+        bundle = settle_softly(start, seen, Freedom(basis), rounds=3).bundle
+        error_px = _median_error_px(bundle, seen)
+        if error_px < _GOOD_ENOUGH * homography_error_px:
+            return bundle
+        tried.append((error_px, bundle))
+    best = min(tried, key=lambda pair: pair[0], default=(np.inf, None))
+    if best[1] is None or not np.isfinite(best[0]):
+        raise InputError(
+            "no camera shows the board like that: check the board's rows and columns, and that "
+            "the views show it at different tilts"
+        )
+    return best[1]
+
+
+def _held(guess: Bundle, wanted: Wanted, size_px: tuple[int, int]) -> Bundle:
+    """Return a guess with what is held fixed at its value, its own lens kept."""
+    conformed = wanted.conform(guess, size_px).intrinsics
+    width = len(guess.intrinsics)
+    return replace(guess, intrinsics=conformed[:width])
+
+
+def _median_error_px(bundle: Bundle, seen: Sightings) -> float:
+    errors: Array = np.linalg.norm(seen.corners_px - bundle.predict(), axis=-1)
+    used: BoolArray = seen.used
+    return float(np.nan_to_num(np.median(errors[used]), nan=np.inf))

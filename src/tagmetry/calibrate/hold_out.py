@@ -1,0 +1,46 @@
+"""How well a camera shows views that it was not solved from."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from tagmetry.calibrate.bundle import Freedom, errors_px
+from tagmetry.calibrate.fit import Fit
+from tagmetry.calibrate.solve import solve
+from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import IntArray
+
+_MOST_ROUNDS = 20
+_MOST_STEPS = 10  # from the solution of all views: only along valleys of no consequence are more
+
+
+def hold_out_px(fit: Fit) -> float:
+    """Return the root of the mean squared 2-D error over left-out views, weighted by corners."""
+    squares, corners = hold_out_squares_px2(fit), fit.seen.used.sum(axis=1)
+    return float(np.sqrt((squares * corners).sum() / corners.sum()))
+
+
+def hold_out_squares_px2(fit: Fit) -> Array:
+    """Return the mean squared 2-D error of each left-out view, shape (n,), px^2.
+
+    Each view is left out once, alone for up to 20 views and in 20 interleaved groups for more.
+    The camera (and the board's shape) is solved from the others; then only the view's own pose is
+    fitted, to all of its corners. Infinite where the others lead to no camera that shows it.
+    """
+    n = len(fit.seen)
+    rounds = min(n, _MOST_ROUNDS)
+    squares = np.full(n, np.inf)
+    for first in range(rounds):
+        group = np.arange(first, n, rounds)
+        squares[group] = _squares_without(fit, group)
+    return squares
+
+
+def _squares_without(fit: Fit, group: IntArray) -> Array:
+    rest = np.setdiff1d(np.arange(len(fit.seen)), group)
+    solved = solve(fit.bundle.only(rest), fit.seen.only(rest), fit.freedom, _MOST_STEPS).bundle
+    left_out, seen = fit.bundle.only(group), fit.seen.only(group)
+    start = replace(left_out, intrinsics=solved.intrinsics, p_board=solved.p_board)
+    posed = solve(start, seen, Freedom(fit.freedom.basis[:, :0]), _MOST_STEPS).bundle
+    squares = (errors_px(posed, seen) ** 2).sum(axis=(1, 2)) / seen.used.sum(axis=1)
+    return np.asarray(np.nan_to_num(squares, nan=np.inf))

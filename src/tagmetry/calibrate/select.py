@@ -1,0 +1,145 @@
+"""Which lens model the views support, by three tests together.
+
+The error on the fitted corners falls with every coefficient, so it decides nothing. A model must
+be one to one over the image, or as nearly so as the best; of those it must show left-out views
+within 1 % of the best; of those the Bayesian information criterion is least.
+
+Reference: G. Schwarz, Estimating the Dimension of a Model, 1978.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tagmetry.calibrate.bundle import Bundle, errors_px
+from tagmetry.calibrate.choice import LENS_NAMES, LensName, ModelChoice, ModelRow
+from tagmetry.calibrate.fit import Fit, begin, fit_flat, refit
+from tagmetry.calibrate.freedom import Wanted
+from tagmetry.calibrate.hold_out import hold_out_px
+from tagmetry.calibrate.sightings import Sightings
+from tagmetry.camera import distortion_reach
+from tagmetry.errors import InputError
+
+_GENERAL: tuple[LensName, ...] = ("brown5", "fisheye")
+_HOLD_OUT_SLACK = 1.01
+_MONOTONIC_SLACK = 0.005
+
+
+@dataclass(frozen=True, eq=False)
+class Selected:
+    """The winner among lens models.
+
+    Attributes:
+        fit: Its fit.
+        choice: All of them, and why it won.
+    """
+
+    fit: Fit
+    choice: ModelChoice
+
+
+def general_fit(seen: Sightings, wanted: Wanted, *, robust: bool) -> Fit:
+    """Return the better of the five-coefficient lens and the fisheye.
+
+    It says which corners and views fit at all: a model that fits badly must not win by dropping
+    corners.
+    """
+    fits = []
+    for lens in _GENERAL:
+        try:
+            fits.append(fit_flat(seen, replace(wanted, lens=lens), robust=robust))
+        except InputError as error:
+            refusal = error
+    if not fits:
+        raise refusal
+    return min(fits, key=lambda fit: fit.scale)
+
+
+def select_model(general: Fit, wanted: Wanted) -> Selected:
+    """Return the lens model that the corners of a general fit support."""
+    fits = _fits(general, wanted)
+    rows = {name: _row(name, fit) for name, fit in fits.items()}
+    finalists = _finalists(list(rows.values()))
+    chosen = min(finalists, key=lambda row: row.bic)
+    told = tuple(_told(row, rows, finalists, chosen) for row in rows.values())
+    return Selected(fits[chosen.name], ModelChoice(chosen.name, told, _reason(chosen, finalists)))
+
+
+def _fits(general: Fit, wanted: Wanted) -> dict[LensName, Fit]:
+    """Return every model's fit to the same corners; a model that no start leads to is missing.
+
+    Larger lenses start from the next smaller one.
+    """
+    fits: dict[LensName, Fit] = {}
+    for name in LENS_NAMES:
+        kind = replace(wanted, lens=name)
+        try:
+            start = _start(general, fits, kind)
+        except InputError:
+            continue
+        fits[name] = refit(start, general.seen, kind, robust=False)
+    return fits
+
+
+def _start(general: Fit, fits: dict[LensName, Fit], kind: Wanted) -> Bundle:
+    before = [fit.bundle for fit in fits.values() if fit.bundle.kind == kind.kind]
+    if kind.coefficients > 5 and before:
+        return before[-1]
+    return general.bundle if general.bundle.kind == kind.kind else begin(general.seen, kind)
+
+
+def _row(name: LensName, fit: Fit) -> ModelRow:
+    squares = (errors_px(fit.bundle, fit.seen) ** 2).sum()
+    count = fit.seen.corner_count
+    reach = distortion_reach(fit.bundle.camera(fit.seen.size_px))
+    return ModelRow(
+        name=name,
+        parameters=fit.freedom.count,
+        rms_px=float(np.sqrt(squares / count)),
+        hold_out_px=hold_out_px(fit),
+        bic=bayesian_information(fit),
+        monotonic_share=reach.covered_share,
+        verdict="",
+    )
+
+
+def bayesian_information(fit: Fit) -> float:
+    """Return m ln(chi^2 / m) + p ln m for m equations and p free numbers, poses included."""
+    chi2 = float((fit.seen.weights[..., None] * errors_px(fit.bundle, fit.seen) ** 2).sum())
+    equations = 2 * fit.seen.corner_count
+    unknowns = fit.freedom.count + 6 * len(fit.seen)
+    return float(equations * np.log(chi2 / equations) + unknowns * np.log(equations))
+
+
+def _finalists(rows: list[ModelRow]) -> list[ModelRow]:
+    widest = max(row.monotonic_share for row in rows)
+    safe = [row for row in rows if row.monotonic_share >= widest - _MONOTONIC_SLACK]
+    least = min(row.hold_out_px for row in safe)
+    return [row for row in safe if row.hold_out_px <= _HOLD_OUT_SLACK * least]
+
+
+def _told(
+    row: ModelRow, rows: dict[LensName, ModelRow], finalists: list[ModelRow], chosen: ModelRow
+) -> ModelRow:
+    """Return the row with its verdict in words."""
+    widest = max(other.monotonic_share for other in rows.values())
+    if row is chosen:
+        verdict = "chosen"
+    elif row in finalists:
+        verdict = "as good on left-out views, but needs more parameters than it is worth"
+    elif row.monotonic_share < widest - _MONOTONIC_SLACK:
+        verdict = f"folds back over {1 - row.monotonic_share:.0%} of the image"
+    elif not np.isfinite(row.hold_out_px):
+        verdict = "cannot be solved without some of the views"
+    else:
+        verdict = f"{row.hold_out_px / chosen.hold_out_px - 1:.0%} worse on left-out views"
+    return replace(row, verdict=verdict)
+
+
+def _reason(chosen: ModelRow, finalists: list[ModelRow]) -> str:
+    others = [row.name for row in finalists if row is not chosen]
+    beside = f" like {', '.join(others)}, and with the lowest BIC of these" if others else ""
+    return (
+        f"{chosen.name} shows left-out views best, at {chosen.hold_out_px:.3f} px{beside}; it is "
+        f"one to one over {chosen.monotonic_share:.0%} of the image"
+    )
