@@ -25,6 +25,10 @@ COMMANDS = {
     "Chessboard 9x6 inner corners, square 20 mm": [
         "board", "chessboard", "--columns=9", "--rows=6", "--square=20mm",
     ],
+    "Asymmetric circles 4x7, pitch 20 mm, diameter 14 mm": [
+        "board", "circles", "--columns=4", "--rows=7", "--pitch=20mm", "--diameter=14mm",
+        "--asymmetric",
+    ],
     "ChArUco 5x6, square 30 mm, size 22 mm, 5x5_250 ids 0-14": CHARUCO,
     "ChArUco 5x6 legacy, square 30 mm, size 22 mm, 5x5_250 ids 0-14": [*CHARUCO, "--legacy"],
 }  # fmt: skip

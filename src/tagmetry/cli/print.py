@@ -183,6 +183,36 @@ def charuco(  # noqa: PLR0913 (each argument is an option)
     _write_board(board, _setup(paper, orientation, margin, quiet, inverted), out, dpi)
 
 
+@board_app.command()
+def circles(  # noqa: PLR0913 (each argument is an option)
+    *,
+    columns: Annotated[int, typer.Option(help="Discs in a row.")],
+    rows: Annotated[int, typer.Option(help="Rows of discs.")],
+    pitch: Annotated[str, typer.Option(help=f"From one row to the next, {_LENGTH}.")],
+    diameter: Annotated[str, typer.Option(help=f"Diameter of a disc, {_LENGTH}.")],
+    out: Out,
+    asymmetric: Annotated[
+        bool,
+        typer.Option(
+            "--asymmetric", help="Every second row moved by a pitch, discs two pitches apart."
+        ),
+    ] = False,
+    paper: PaperSize = "a4",
+    orientation: Orientation = "auto",
+    margin: Margin = "10mm",
+    quiet: Quiet = 1,
+    inverted: Inverted = False,
+    dpi: Dpi = 600,
+) -> None:
+    """Print discs in rows and columns, straight or staggered."""
+    from tagmetry.files.lengths import parse_length_m
+    from tagmetry.markers import CircleGrid
+
+    pitch_m, diameter_m = parse_length_m(pitch), parse_length_m(diameter)
+    board = CircleGrid(columns, rows, pitch_m, diameter_m, asymmetric)
+    _write_board(board, _setup(paper, orientation, margin, quiet, inverted), out, dpi)
+
+
 def _setup(
     paper: str, orientation: str, margin: str, quiet_cells: int, inverted: bool
 ) -> "PageSetup":

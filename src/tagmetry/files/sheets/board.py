@@ -9,13 +9,14 @@ from tagmetry.errors import InputError
 from tagmetry.files.lengths import format_mm
 from tagmetry.files.sheets.ids import describe_ids
 from tagmetry.files.sheets.marker import cell_m, check_printable, marker_cells
-from tagmetry.files.sheets.page import Cells, bar
+from tagmetry.files.sheets.page import Cells, Disc, bar
 from tagmetry.files.sheets.tile import Tile, labelled
 from tagmetry.markers import (
     AprilGrid,
     Board,
     CharucoBoard,
     Chessboard,
+    CircleGrid,
     GridBoard,
     MarkerFamily,
     family,
@@ -23,6 +24,7 @@ from tagmetry.markers import (
 
 _MOST_PLACES = 100_000
 _CHESSBOARD_QUIET = 0.25  # of a square
+_DISC_QUIET = 0.25  # of a diameter
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,7 @@ def board_tile(board: Board, quiet_cells: int = 1, *, inverted: bool = False) ->
     Args:
         board: One of the boards of `tagmetry.markers`.
         quiet_cells: Width of the white around it, in cells of its markers; a quarter of a square
-            counts as a cell of a chessboard.
+            counts as a cell of a chessboard, a quarter of a disc as one of a circle grid.
         inverted: Print white on black.
 
     Raises:
@@ -72,7 +74,7 @@ def board_title(board: Board) -> str:
     return _facts(board).title
 
 
-def _ink(board: Board, quiet_m: float) -> tuple[Cells, ...]:
+def _ink(board: Board, quiet_m: float) -> tuple[Cells | Disc, ...]:
     centre_x_m, centre_y_m = quiet_m + board.width_m / 2, quiet_m + board.height_m / 2
     squares = [
         bar(centre_x_m + x_m, centre_y_m - y_m - side_m, side_m, side_m)
@@ -85,7 +87,11 @@ def _ink(board: Board, quiet_m: float) -> tuple[Cells, ...]:
         markers.append(
             marker_cells(family(mounted.family), mounted.id, left_m, top_m, mounted.size_m)
         )
-    return (*squares, *markers)
+    discs = [
+        Disc(centre_x_m + x_m, centre_y_m - y_m, radius_m)
+        for x_m, y_m, radius_m in board.circles_m().tolist()
+    ]
+    return (*squares, *markers, *discs)
 
 
 def _facts(board: Board) -> _Facts:
@@ -98,8 +104,10 @@ def _facts(board: Board) -> _Facts:
             return _chessboard_facts(board)
         case CharucoBoard():
             return _charuco_facts(board)
+        case CircleGrid():
+            return _circles_facts(board)
     raise InputError(
-        "only GridBoard, AprilGrid, Chessboard and CharucoBoard can be printed, got "
+        "only GridBoard, AprilGrid, Chessboard, CharucoBoard and CircleGrid can be printed, got "
         f"{type(board).__name__}"
     )
 
@@ -146,6 +154,15 @@ def _charuco_facts(board: CharucoBoard) -> _Facts:
     places = board.columns * board.rows
     check_printable("size", board.size_m)
     return _Facts(title, places, "square", board.square_m, cell_m(tags, board.size_m))
+
+
+def _circles_facts(board: CircleGrid) -> _Facts:
+    title = (
+        f"{'Asymmetric circles' if board.asymmetric else 'Circles'} {board.columns}x{board.rows}, "
+        f"pitch {format_mm(board.pitch_m)}, diameter {format_mm(board.diameter_m)}"
+    )
+    quiet_cell_m = _DISC_QUIET * board.diameter_m
+    return _Facts(title, board.columns * board.rows, "diameter", board.diameter_m, quiet_cell_m)
 
 
 def _ids(tags: MarkerFamily, first_id: int, count: int) -> str:

@@ -62,6 +62,26 @@ class Cells:
 
 
 @dataclass(frozen=True)
+class Disc:
+    """A filled circle."""
+
+    x_m: float
+    y_m: float
+    radius_m: float
+    ink: Ink = "black"
+
+    @property
+    def box(self) -> Box:
+        """The square around it."""
+        side_m = 2 * self.radius_m
+        return Box(self.x_m - self.radius_m, self.y_m - self.radius_m, side_m, side_m)
+
+    def moved(self, x_m: float, y_m: float) -> "Disc":
+        """Return it moved to the right and down."""
+        return replace(self, x_m=self.x_m + x_m, y_m=self.y_m + y_m)
+
+
+@dataclass(frozen=True)
 class Text:
     """A line of black text.
 
@@ -97,7 +117,7 @@ class Text:
         return replace(self, x_m=self.x_m + x_m, baseline_m=self.baseline_m + y_m)
 
 
-Shape = Cells | Text
+Shape = Cells | Disc | Text
 
 
 @dataclass(frozen=True)

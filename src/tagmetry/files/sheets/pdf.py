@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from tagmetry.errors import MissingExtraError
 from tagmetry.files.sheets.outline import outlines_m
-from tagmetry.files.sheets.page import Cells, Page, Shape, Text
+from tagmetry.files.sheets.page import Cells, Disc, Ink, Page, Shape, Text
 
 if TYPE_CHECKING:
     from reportlab.pdfgen.canvas import Canvas
@@ -47,6 +47,8 @@ def _draw(canvas: "Canvas", shape: Shape, height_points: float) -> None:
     """Draw a shape; PDF's y goes up from the bottom."""
     if isinstance(shape, Cells):
         _draw_cells(canvas, shape, height_points)
+    elif isinstance(shape, Disc):
+        _draw_disc(canvas, shape, height_points)
     else:
         _draw_text(canvas, shape, height_points)
 
@@ -59,6 +61,16 @@ def _draw_text(canvas: "Canvas", text: Text, height_points: float) -> None:
     draw(x, y, text.shown)
 
 
+def _draw_disc(canvas: "Canvas", disc: Disc, height_points: float) -> None:
+    canvas.setFillGray(_grey(disc.ink))
+    x, y = disc.x_m * _POINTS_PER_M, height_points - disc.y_m * _POINTS_PER_M
+    canvas.circle(x, y, disc.radius_m * _POINTS_PER_M, stroke=0, fill=1)
+
+
+def _grey(ink: Ink) -> int:
+    return 0 if ink == "black" else 1
+
+
 def _draw_cells(canvas: "Canvas", cells: Cells, height_points: float) -> None:
     path = canvas.beginPath()
     for loop_m in outlines_m(cells):
@@ -67,5 +79,5 @@ def _draw_cells(canvas: "Canvas", cells: Cells, height_points: float) -> None:
         for x, y in others:
             path.lineTo(x, height_points - y)
         path.close()
-    canvas.setFillGray(0 if cells.ink == "black" else 1)
+    canvas.setFillGray(_grey(cells.ink))
     canvas.drawPath(path, stroke=0, fill=1, fillMode=0)  # 0: even-odd

@@ -1,16 +1,17 @@
 """Pages as pixels: each pixel's grey is the share of it that the ink leaves white.
 
-The shares are exact areas. Where a cell ends within a pixel the pixel is grey, so an edge is
-where it should be whatever the resolution.
+The shares are exact areas (a disc's to a thousandth). Where a cell ends within a pixel the pixel is
+grey, so an edge is where it should be whatever the resolution.
 """
 
 import numpy as np
 
-from tagmetry.files.sheets.page import Cells, Page, Text
+from tagmetry.files.sheets.page import Cells, Disc, Page, Text
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 
 _BAND_PX = 256
+_CHORDS = 16  # per row of pixels of a disc
 
 
 def page_as_pixels(page: Page, pixels_per_m: float) -> GreyPixels:
@@ -25,6 +26,8 @@ def page_as_pixels(page: Page, pixels_per_m: float) -> GreyPixels:
     for shape in page.shapes:
         if isinstance(shape, Cells):
             _fill(pixels, shape, pixels_per_m)
+        elif isinstance(shape, Disc):
+            _fill_disc(pixels, shape, pixels_per_m)
         else:
             _write(pixels, shape, pixels_per_m)
     return pixels
@@ -49,6 +52,31 @@ def _fill(pixels: GreyPixels, cells: Cells, pixels_per_m: float) -> None:
         share = down[first : first + _BAND_PX] @ filled @ across.T
         band = pixels[top + first :, left:][: share.shape[0], : share.shape[1]]
         band[:] = np.rint(band + share * (ink - band))
+
+
+def _fill_disc(pixels: GreyPixels, disc: Disc, pixels_per_m: float) -> None:
+    """Cover the pixels under a disc, chord by chord."""
+    x_px, y_px, radius_px = (v * pixels_per_m for v in (disc.x_m, disc.y_m, disc.radius_m))
+    top, bottom = _span(y_px, radius_px, pixels.shape[0])
+    left, right = _span(x_px, radius_px, pixels.shape[1])
+    across_px = np.arange(left, right)
+    ink = 0.0 if disc.ink == "black" else 255.0
+    for row in range(top, bottom):
+        chord_y_px = row + (np.arange(_CHORDS)[:, None] + 0.5) / _CHORDS - y_px
+        half_px = np.sqrt(np.maximum(radius_px**2 - chord_y_px**2, 0.0))
+        ends, starts = (
+            np.minimum(across_px + 1, x_px + half_px),
+            np.maximum(across_px, x_px - half_px),
+        )
+        share = np.maximum(ends - starts, 0.0).mean(axis=0)
+        band = pixels[row, left:right]
+        band[:] = np.rint(band + share * (ink - band))
+
+
+def _span(middle_px: float, radius_px: float, most_px: int) -> tuple[int, int]:
+    """Return the first pixel that a disc touches, and the one after the last."""
+    first, last = np.floor(middle_px - radius_px), np.ceil(middle_px + radius_px)
+    return int(np.clip(first, 0, most_px)), int(np.clip(last, 0, most_px))
 
 
 def _shares(

@@ -3,7 +3,7 @@
 from xml.sax.saxutils import escape
 
 from tagmetry.files.sheets.outline import outlines_m
-from tagmetry.files.sheets.page import Cells, Page, Shape, Text
+from tagmetry.files.sheets.page import Cells, Disc, Page, Shape, Text
 from tagmetry.geometry import Array
 
 _NAMESPACE = 'xmlns="http://www.w3.org/2000/svg"'
@@ -27,6 +27,9 @@ def _element(shape: Shape) -> str:
     if isinstance(shape, Cells):
         path = "".join(_loop(loop_m) for loop_m in outlines_m(shape))
         return f'<path fill="{shape.ink}" fill-rule="evenodd" d="{path}"/>'
+    if isinstance(shape, Disc):
+        place = f'cx="{_mm(shape.x_m)}" cy="{_mm(shape.y_m)}" r="{_mm(shape.radius_m)}"'
+        return f'<circle fill="{shape.ink}" {place}/>'
     return _text(shape)
 
 

@@ -3,9 +3,9 @@
 Frame: as on a page, with the origin at the tile's own top left corner.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from tagmetry.files.sheets.page import Cells, Shape, Text, bar, text_width_m
+from tagmetry.files.sheets.page import Cells, Disc, Shape, Text, bar, text_width_m
 
 LABEL_HEIGHT_M = 0.0045
 _LARGEST_LABEL_M = 0.0030
@@ -44,7 +44,7 @@ class Tile:
 
 def labelled(
     *,
-    ink: tuple[Cells, ...],
+    ink: tuple[Cells | Disc, ...],
     width_m: float,
     height_m: float,
     labels: tuple[str, ...],
@@ -68,9 +68,11 @@ def labelled(
     return Tile(width_m, height_m, (*drawn, label), size_name, size_m)
 
 
-def _inverted(ink: tuple[Cells, ...], width_m: float, height_m: float) -> tuple[Cells, ...]:
+def _inverted(
+    ink: tuple[Cells | Disc, ...], width_m: float, height_m: float
+) -> tuple[Cells | Disc, ...]:
     ground = bar(0.0, 0.0, width_m, height_m)
-    return (ground, *(Cells(cells.box, cells.filled, "white") for cells in ink))
+    return (ground, *(replace(shape, ink="white") for shape in ink))
 
 
 def _label(labels: tuple[str, ...], width_m: float, top_m: float) -> Text:
