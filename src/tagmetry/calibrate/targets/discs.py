@@ -15,7 +15,7 @@ from tagmetry.geometry.arrays import BoolArray, GreyPixels
 _ROUNDS = 3
 _RIM, _WINDOW = 0.55, 0.9  # shares of the gap to the neighbour's edge: where the rim begins, ends
 _LEAST_CONTRAST = 12.0
-_FLOOR_PX = 0.005
+_FLOOR_PX = 0.001
 
 
 def disc_centres(

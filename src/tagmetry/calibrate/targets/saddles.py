@@ -21,7 +21,9 @@ from tagmetry.geometry.arrays import BoolArray, GreyPixels
 _STEPS = 15
 _LARGEST_HALF_PX = 16.0  # beyond, a lens' curves cost more than longer edges give
 _LEAST_HALF_PX = 2.0
-_FLOOR_PX = 0.005  # what the model leaves out, on noiseless rendered boards
+_FLOOR_PX = 0.0008  # what the model leaves out, on noiseless rendered boards
+_SHARP_SD_PX = 0.02  # with no blur at all, as a pixel's square is no Gaussian
+_PIXEL_PX, _SOFT_PX = 0.29, 0.42  # blur of a pixel alone, and from which on it looks Gaussian
 _UNKNOWNS = 7
 _SETTLED = 1e-3
 _QUANTUM = 1 / np.sqrt(12)  # standard deviation of rounding to whole grey values
@@ -208,6 +210,8 @@ def _judged(window: _Window, unknowns: Array, guesses_px: Array, steps_px: Array
         & (contrast > np.maximum(6.0, 4 * noise))
         & (blur_px < 0.4 * shortest_px)
     )
-    sd_px = np.sqrt(np.maximum(variance, 0.0) + _FLOOR_PX**2)
+    sharp = np.clip((_SOFT_PX - blur_px) / (_SOFT_PX - _PIXEL_PX), 0.0, 1.0)
+    floor_px = _FLOOR_PX + _SHARP_SD_PX * sharp
+    sd_px = np.sqrt(np.maximum(variance, 0.0) + floor_px**2)
     centres_px = guesses_px + unknowns[:, :2]
     return Saddles(centres_px, sd_px, blur_px, contrast, noise, np.asarray(is_saddle))
