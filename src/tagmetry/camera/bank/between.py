@@ -22,7 +22,7 @@ from tagmetry.camera.model import Camera
 from tagmetry.geometry.arrays import Array, BoolArray
 
 _STEPS = 20
-_DONE_PX = 1e-9
+_DONE_PX = 1e-8
 _UNSEEN = 1e-7  # relative strength at which a direction of the parameters moves no pixel
 
 
@@ -82,7 +82,7 @@ def carried_errors(camera: Camera, errors_px: Array) -> Array:
         Shape (k, 4 + coefficients).
     """
     jacobian, seen = _parameter_jacobian(camera, camera.unproject(pixel_grid(camera)))
-    errors_px = np.nan_to_num(errors_px[:, seen]).reshape(len(errors_px), -1)
+    errors_px = np.nan_to_num(errors_px[:, seen]).reshape(len(errors_px), len(jacobian))
     return np.asarray(errors_px @ _pseudo_inverse(jacobian).T)
 
 

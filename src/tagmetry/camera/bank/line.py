@@ -56,17 +56,24 @@ class Line:
         squares add up to its variance.
         """
         inside = range(1, len(self.settings) - 1)
-        if not inside or any(camera.covariance is None for camera in self.cameras):
-            return np.zeros((0, len(pixel_grid(self.cameras[0])), 2))
-        rows = [self._left_out_error(index) for index in inside]
-        errors_px = np.array([row[0] for row in rows])
-        seen = float(np.nansum(errors_px**2)) / len(pixel_grid(self.cameras[0]))
-        share = max(0.0, 1.0 - sum(row[1] for row in rows) / max(seen, 1e-300))
+        rows = [row for row in map(self._left_out_error, inside) if row is not None]
+        pixel_count = len(pixel_grid(self.cameras[0]))
+        if not rows:
+            return np.zeros((0, pixel_count, 2))
+        errors_px = np.array([error_px for error_px, _ in rows])
+        seen = float(np.nansum(errors_px**2)) / pixel_count
+        explained = sum(by_noise for _, by_noise in rows)
+        share = max(0.0, 1.0 - explained / max(seen, 1e-300))
         return np.asarray(np.sqrt(share / len(rows)) * errors_px)
 
-    def _left_out_error(self, index: int) -> tuple[Array, float]:
-        """Return the displacements of one left out, and their mean square that noise explains."""
+    def _left_out_error(self, index: int) -> tuple[Array, float] | None:
+        """Return the displacements of one left out, and their mean square that noise explains.
+
+        None where a covariance is missing.
+        """
         camera, predicted = self.cameras[index], self.left_out(index)
+        if camera.covariance is None or predicted.covariance is None:
+            return None
         low, setting, high = self.settings[index - 1 : index + 2]
         leverage = (setting - low) * (high - setting)
         explained = mean_variance_px2(predicted) + mean_variance_px2(camera)
