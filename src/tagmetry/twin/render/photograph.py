@@ -1,9 +1,11 @@
 """Pictures of scenes with exact truth.
 
-    picture = numbers of the sensor (light on its pixels)
+    picture = compressed (zoomed (numbers of the sensor (light on its pixels)))
 
 Every pixel is the exact mean of what its footprint shows. See `expose` for the light.
 """
+
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,7 +13,7 @@ from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.twin.render.expose import exposed
 from tagmetry.twin.render.shot import Shot
 from tagmetry.twin.scenes import Scene
-from tagmetry.twin.sensor import developed
+from tagmetry.twin.sensor import developed, through_jpeg
 
 
 def photograph(scene: Scene, shot: Shot, rng: np.random.Generator) -> AnyPixels:
@@ -19,8 +21,10 @@ def photograph(scene: Scene, shot: Shot, rng: np.random.Generator) -> AnyPixels:
 
     Args:
         scene: What there is to see.
-        shot: Who sees it, and how.
+        shot: Who sees it, and how. `shot.picture_camera` has the picture's intrinsics.
         rng: Where the noise comes from.
     """
-    light = exposed(scene, shot)
-    return developed(light * np.float32(shot.brightness), shot.sensor, rng)
+    light = exposed(scene, shot) * np.float32(shot.brightness)
+    pixels = shot.zoom.pixels(developed(light, replace(shot.sensor, jpeg_quality=None), rng))
+    quality = shot.sensor.jpeg_quality
+    return pixels if quality is None else through_jpeg(pixels, quality)

@@ -6,6 +6,7 @@ import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.errors import InputError
+from tagmetry.twin.render.crop import DigitalZoom
 from tagmetry.twin.render.view import View
 from tagmetry.twin.scenes.path import Path
 from tagmetry.twin.sensor import Sensor
@@ -67,6 +68,7 @@ class Shot:
         optics: How the image is formed.
         shutter: When light is taken in.
         sensor: How light becomes numbers.
+        zoom: What is given out of the sensor's image.
         brightness: Exposure of the radiance 1, as a share of the sensor's full scale.
         sampling: How many times finer the picture is computed than its blur needs.
     """
@@ -77,8 +79,14 @@ class Shot:
     optics: Optics = field(default_factory=Optics)
     shutter: Shutter = field(default_factory=Shutter)
     sensor: Sensor = field(default_factory=Sensor)
+    zoom: DigitalZoom = field(default_factory=DigitalZoom)
     brightness: float = 1.0
     sampling: int = 1
+
+    @property
+    def picture_camera(self) -> Camera:
+        """Intrinsics of the picture, which a digital zoom makes others than the sensor's."""
+        return self.zoom.camera(self.camera)
 
     def view(self, late_s: float = 0.0) -> View:
         """Return what is seen some time after the middle of the exposure."""

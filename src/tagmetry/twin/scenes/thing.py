@@ -60,7 +60,11 @@ def marker_sheet(
 
 def board_thing(board: Board, path: Path = _NOWHERE, *, margin_m: float = 0.02) -> Thing:
     """Return a board on a white paper with a margin."""
-    prints = (*_squares(board.black_squares_m()), *_markers(board), *_dots(board))
+    prints: tuple[Print | Dot, ...] = (
+        *_squares(board.black_squares_m()),
+        *_markers(board),
+        *_dots(board),
+    )
     paper = Sheet(board.width_m + 2 * margin_m, board.height_m + 2 * margin_m, prints)
     return Thing("board", (paper,), board.markers(), board, path)
 
