@@ -75,13 +75,15 @@ def test_in_focus_everywhere_the_image_is_returned_as_it_is() -> None:
     assert spread_by_depth(image, 2, np.zeros(image.shape)) is image
 
 
-def test_what_is_in_focus_stays_sharp_beside_what_is_not() -> None:
+@pytest.mark.parametrize("gaussian_px", [0.0, 1.5])
+def test_what_is_in_focus_stays_sharp_beside_what_is_not(gaussian_px: float) -> None:
     image = np.random.default_rng(3).random((60, 80), dtype=np.float32)
     radii_px = np.zeros(image.shape, np.float32)
     radii_px[:, 40:] = 0.25 * 1.1**33  # a level of its own
-    seen = spread_by_depth(image, 2, radii_px)
-    np.testing.assert_array_equal(seen[:, :40], image[:, :40])
-    soft = spread(image, 2, Spread(disc_px=0.25 * 1.1**33))
+    seen = spread_by_depth(image, 2, radii_px, gaussian_px)
+    sharp = spread(image, 2, Spread(gaussian_px))
+    np.testing.assert_allclose(seen[:, :40], sharp[:, :40], atol=1e-6)
+    soft = spread(image, 2, Spread(gaussian_px, 0.25 * 1.1**33))
     np.testing.assert_allclose(seen[:, 40:], soft[:, 40:], atol=1e-5)
 
 

@@ -64,7 +64,7 @@ def profile_errors(by: Spread, fine: int) -> Array:
 
 SPREADS = [
     *[Spread(gaussian_px=width) for width in (0.15, 0.3, 0.6, 1.0, 2.5)],
-    *[Spread(disc_px=radius) for radius in (0.3, 0.5, 1.0, 2.2, 7.0, 20.0)],
+    *[Spread(disc_px=radius) for radius in (0.3, 0.5, 1.0, 2.2, 7.0, 20.0, 80.0)],
     Spread(0.4, 0.5),
     Spread(0.6, 2.0),
     Spread(2.0, 3.0),
