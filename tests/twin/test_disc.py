@@ -54,9 +54,3 @@ def test_its_second_moment_is_the_discs_and_a_cells(radius: float) -> None:
         excess.append(kernel.sum(axis=0) @ at**2 - near**2 / 4)
     assert np.mean(excess) == pytest.approx(1 / 12, abs=0.004)
     assert np.max(np.abs(excess)) < 1 / 12 + 0.06
-
-
-def test_is_kept_and_cannot_be_changed() -> None:
-    assert disc_kernel(3.3) is disc_kernel(3.3)
-    with pytest.raises(ValueError, match="read-only"):
-        disc_kernel(3.3)[0, 0] = 1.0

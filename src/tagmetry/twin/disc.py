@@ -8,14 +8,11 @@ y = b > 0 that lies within the disc is
 F is odd in a and b, and a cell's area is the difference of F over its four corners.
 """
 
-from functools import lru_cache
-
 import numpy as np
 
 from tagmetry.geometry import Array
 
 
-@lru_cache(maxsize=64)
 def disc_kernel(radius: float) -> Array:
     """Return the share of a uniform disc in each cell of a grid, centred on the middle cell.
 
@@ -23,15 +20,13 @@ def disc_kernel(radius: float) -> Array:
         radius: Of the disc, in cells; positive.
 
     Returns:
-        Shape (n, n), n odd, sum 1; read only.
+        Shape (n, n), n odd, sum 1.
     """
     reach = max(int(np.ceil(radius - 0.5)), 0)
     edges = np.arange(-reach, reach + 2, dtype=np.float64) - 0.5
     corner_areas = _area_to_axes(edges[None, :], edges[:, None], radius)
     areas = np.diff(np.diff(corner_areas, axis=0), axis=1)
-    kernel = np.asarray(areas / areas.sum())
-    kernel.setflags(write=False)
-    return kernel
+    return np.asarray(areas / areas.sum())
 
 
 def _area_to_axes(a: Array, b: Array, radius: float) -> Array:

@@ -12,6 +12,7 @@ variance by P'' / 2: an error of h^2 P'' / 12 at most, from which `fine_scale` f
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -125,21 +126,22 @@ def _disc_radius(radius: float) -> float:
     return float(np.sqrt(max(radius**2 - 4 * _CELL_VARIANCE, 0.0)))
 
 
-def _joint_kernel(gaussian: float, disc: float) -> Array:
-    """Return a disc spread by a Gaussian, shape (n, n)."""
+@lru_cache(maxsize=64)
+def _joint_kernel(gaussian: float, disc: float) -> FloatImage:
+    """Return a disc spread by a Gaussian, shape (n, n); kept, as tiles ask for the same again."""
     kernel = disc_kernel(disc)
-    if gaussian == 0:
-        return kernel
-    along = gaussian_kernel(gaussian)
-    wide = np.pad(kernel, len(along) // 2)
-    return np.asarray(cv2.sepFilter2D(wide, cv2.CV_64F, along, along, borderType=0))
+    if gaussian > 0:
+        along = gaussian_kernel(gaussian)
+        wide = np.pad(kernel, len(along) // 2)
+        kernel = np.asarray(
+            cv2.sepFilter2D(wide, cv2.CV_64F, along, along, borderType=cv2.BORDER_CONSTANT), float
+        )
+    return kernel.astype(np.float32)
 
 
-def _filtered(image: FloatImage, kernel: Array) -> FloatImage:
+def _filtered(image: FloatImage, kernel: FloatImage) -> FloatImage:
     """Return the image under a symmetric kernel; OpenCV turns to Fourier transforms by itself."""
-    done = cv2.filter2D(
-        image, cv2.CV_32F, kernel.astype(np.float32), borderType=cv2.BORDER_REPLICATE
-    )
+    done = cv2.filter2D(image, cv2.CV_32F, kernel, borderType=cv2.BORDER_REPLICATE)
     return np.asarray(done, np.float32)
 
 
