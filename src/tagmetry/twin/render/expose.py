@@ -17,6 +17,7 @@ from tagmetry.twin.render.box import Box, tiles
 from tagmetry.twin.render.fineness import fine_of, gaussian_reach_px
 from tagmetry.twin.render.grid import Grid
 from tagmetry.twin.render.layered import layered
+from tagmetry.twin.render.lean import moved_px
 from tagmetry.twin.render.moments import Moment, moments
 from tagmetry.twin.render.paint import painted
 from tagmetry.twin.render.shot import Shot
@@ -25,6 +26,7 @@ from tagmetry.twin.spread import Spread, pixel_means, spread
 from tagmetry.twin.vignetting import vignetted
 
 _TILE_PX = 192
+_LOOKED_AT = 3  # moments of an exposure, to find how steeply sheets are seen
 
 
 def exposed(scene: Scene, shot: Shot) -> FloatImage:
@@ -47,10 +49,12 @@ def _together(
 ) -> None:
     """Fill a tile: all sheets over each other, spread together."""
     reach_px = gaussian_reach_px(shot.optics)
-    boxes = [one.box for moment in during for one in moment.seen if one.box & tile.grown(reach_px)]
-    if not boxes or not (region := tile & reduce(_around, boxes).grown(reach_px)):
+    seen = [one for moment in during for one in moment.seen if one.box & tile.grown(reach_px)]
+    if not seen or not (region := tile & reduce(_around, (s.box for s in seen)).grown(reach_px)):
         return
-    grid = Grid(shot.camera, region.grown(reach_px), fine_of(shot))
+    wide = region.grown(reach_px)
+    some = [one for moment in during[:: len(during) // _LOOKED_AT + 1] for one in moment.seen]
+    grid = Grid(shot.camera, wide, fine_of(shot, moved_px(some, wide, shot.camera)))
     canvas = np.zeros(grid.shape, np.float32)
     for moment in during:
         canvas += _canvas(grid, moment, scene) / np.float32(len(during))

@@ -14,6 +14,7 @@ from tagmetry.twin.defocus import spread_by_depth
 from tagmetry.twin.render.box import Box
 from tagmetry.twin.render.fineness import LARGEST_DISC_PX, fine_of, gaussian_reach_px
 from tagmetry.twin.render.grid import Grid
+from tagmetry.twin.render.lean import moved_px
 from tagmetry.twin.render.moments import Moment
 from tagmetry.twin.render.paint import painted
 from tagmetry.twin.render.seen import SeenSheet
@@ -47,7 +48,8 @@ def _lay(
     box = tile & one.box.grown(reach_px)
     if not box:
         return
-    grid = Grid(shot.camera, box.grown(reach_px), fine_of(shot))
+    wide = box.grown(reach_px)
+    grid = Grid(shot.camera, wide, fine_of(shot, moved_px([one], wide, shot.camera)))
     patch = painted(one, grid.box, grid, view, scene.light)
     discs_px = _discs_over_px(one, grid, shot)
     blur_px = shot.optics.blur_px
