@@ -51,10 +51,7 @@ def refit(start: Bundle, seen: Sightings, wanted: Wanted, *, robust: bool) -> Fi
     """Return the best camera near a start of the same or a simpler lens."""
     freedom = Freedom(wanted.basis())
     start = wanted.conform(start, seen.size_px)
-    if not robust:
-        return Fit(solve(start, seen, freedom).bundle, freedom, seen)
-    solution, kept = solve_robustly(start, seen, freedom)
-    return Fit(solution.bundle, freedom, seen.weighted(kept))
+    return _solved(start, seen, freedom, robust=robust)
 
 
 def release_shape(flat: Fit, seen: Sightings, *, robust: bool) -> Fit:
@@ -70,10 +67,7 @@ def release_shape(flat: Fit, seen: Sightings, *, robust: bool) -> Fit:
         flat.freedom, shape_sd_m=extent * np.array([_IN_PLANE, _IN_PLANE, _OUT_OF_PLANE])
     )
     seen = replace(seen, weights=seen.weights / flat.scale**2)
-    if not robust:
-        return Fit(solve(flat.bundle, seen, freedom).bundle, freedom, seen)
-    solution, kept = solve_robustly(flat.bundle, seen, freedom)
-    return Fit(solution.bundle, freedom, seen.weighted(kept))
+    return _solved(flat.bundle, seen, freedom, robust=robust)
 
 
 def begin(seen: Sightings, wanted: Wanted) -> Bundle:
@@ -102,6 +96,21 @@ def begin(seen: Sightings, wanted: Wanted) -> Bundle:
     return best[1]
 
 
+def _solved(start: Bundle, seen: Sightings, freedom: Freedom, *, robust: bool) -> Fit:
+    """Return the best fit near a start, of the corners that fit or of all."""
+    if robust:
+        solution, kept = solve_robustly(start, seen, freedom)
+    else:
+        solution = solve(settle_softly(start, seen, freedom, rounds=2).bundle, seen, freedom)
+        kept = seen.used
+    if not np.isfinite(solution.cost):
+        raise InputError(
+            "the lens does not reach all corners of the board: check the board's rows and "
+            "columns, ask for another lens, or let outliers be dropped"
+        )
+    return Fit(solution.bundle, freedom, seen.weighted(kept))
+
+
 def _held(guess: Bundle, wanted: Wanted, size_px: tuple[int, int]) -> Bundle:
     """Return a guess with what is held fixed at its value, its own lens kept."""
     conformed = wanted.conform(guess, size_px).intrinsics
@@ -112,4 +121,4 @@ def _held(guess: Bundle, wanted: Wanted, size_px: tuple[int, int]) -> Bundle:
 def _median_error_px(bundle: Bundle, seen: Sightings) -> float:
     errors: Array = np.linalg.norm(seen.corners_px - bundle.predict(), axis=-1)
     used: BoolArray = seen.used
-    return float(np.nan_to_num(np.median(errors[used]), nan=np.inf))
+    return float(np.median(np.nan_to_num(errors[used], nan=np.inf)))

@@ -44,25 +44,32 @@ def fitting(bundle: Bundle, seen: Sightings, sigmas: float = SIGMAS) -> BoolArra
 def settle_softly(
     start: Bundle, seen: Sightings, freedom: Freedom, rounds: int = _SOFT_ROUNDS
 ) -> Solution:
-    """Return a fit in which no corner pulls harder than the limit."""
+    """Return a fit in which no corner pulls harder than the limit.
+
+    Corners that do not project at first (beyond the fold of a lens that is not right yet) wait
+    until they do.
+    """
     solution = Solution(start, np.inf)
     for _ in range(rounds):
         lengths = lengths_in_sd(solution.bundle, seen)
         limit = _SOFT_SIGMAS * robust_scale(lengths, seen)
-        pulls = limit / np.maximum(lengths, limit)
+        pulls = np.nan_to_num(limit / np.maximum(lengths, limit))
         before = solution.bundle
         solution = solve(before, seen.weighted(pulls), freedom, max_iterations=5)
-        moved = np.abs(errors_px(before, seen) - errors_px(solution.bundle, seen)).max()
-        if moved < 1e-2 * limit / np.sqrt(seen.weights.max()):
+        change = np.abs(errors_px(before, seen) - errors_px(solution.bundle, seen)).max()
+        if change < 1e-2 * limit / np.sqrt(seen.weights.max()):
             break
     return solution
 
 
 def lengths_in_sd(bundle: Bundle, seen: Sightings) -> Array:
-    """Return how far corners are off in units of their own sd, shape (n, k)."""
+    """Return how far corners are off in units of their own sd, (n, k); NaN: not projected."""
     return np.asarray(np.sqrt(seen.weights) * np.linalg.norm(errors_px(bundle, seen), axis=-1))
 
 
 def robust_scale(lengths: Array, seen: Sightings) -> float:
     """Return the robust standard deviation along an axis, in units of the corners' own."""
-    return max(float(np.median(lengths[seen.used])) / _MEDIAN_OF_RAYLEIGH, 1e-9)
+    known = lengths[seen.used & np.isfinite(lengths)]
+    if not known.size:
+        return np.inf
+    return max(float(np.median(known)) / _MEDIAN_OF_RAYLEIGH, 1e-9)

@@ -74,10 +74,9 @@ def _fits(general: Fit, wanted: Wanted) -> dict[LensName, Fit]:
     for name in LENS_NAMES:
         kind = replace(wanted, lens=name)
         try:
-            start = _start(general, fits, kind)
+            fits[name] = refit(_start(general, fits, kind), general.seen, kind, robust=False)
         except InputError:
             continue
-        fits[name] = refit(start, general.seen, kind, robust=False)
     return fits
 
 
