@@ -59,13 +59,23 @@ def saved(camera: Camera, folder: Path) -> str:
 @pytest.mark.parametrize("camera", [BROWN, FISHEYE, SEED_003], ids=["brown", "fisheye", "003"])
 @pytest.mark.parametrize(
     ("file_format", "name"),
-    [("ros", "a.yaml"), ("opencv", "a.yml"), ("opencv", "a.json"), ("kalibr", "a.yaml")],
+    [
+        ("ros", "a.yaml"),
+        ("opencv", "a.yml"),
+        ("opencv", "a.json"),
+        ("kalibr", "a.yaml"),
+        ("mrcal", "a.cameramodel"),
+        ("photonvision", "a.json"),
+        ("colmap", "a.txt"),
+    ],
 )
 def test_every_format_leads_back(
     camera: Camera, file_format: str, name: str, tmp_path: Path, capsys: pytest.CaptureFixture
 ) -> None:
     if file_format == "kalibr" and len(camera.lens.coefficients) == 5:
         pytest.skip("Kalibr has no fifth coefficient")
+    if file_format in ("mrcal", "photonvision") and camera.lens.kind == "fisheye":
+        pytest.skip("they have no fisheye lens")
     first, other, back = saved(camera, tmp_path), tmp_path / name, tmp_path / "back.yaml"
     other = other.with_stem("other")
     assert run(["camera", "convert", first, str(other), "--format", file_format]) == 0
@@ -117,7 +127,7 @@ def test_converts_as_the_library_does(options: list[str], expected: Camera, tmp_
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        (["--format=yaml"], "unknown format 'yaml'; there are ros, opencv and kalibr"),
+        (["--format=yaml"], "unknown format 'yaml'; there are ros, opencv, kalibr, mrcal, photon"),
         (["--crop=640x480"], "expected pixels like 640x480+100+50, found '640x480'"),
         (["--crop=0x480+0+0"], "image size must be positive"),
         (["--crop=9999999x1+0+0"], "expected pixels like"),

@@ -1,4 +1,4 @@
-"""`tagmetry camera`: look at a camera file, and convert it."""
+"""`tagmetry camera`: look at a camera file or a bank of them, convert it, keep the bank."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -6,28 +6,98 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tagmetry.cli.options import Json
+from tagmetry.cli.pixels import whole_numbers
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from tagmetry.camera import Camera
 
-app = typer.Typer(help="Look at camera files and convert them.", no_args_is_help=True)
+app = typer.Typer(
+    help="Look at camera files, convert them, keep a bank of them.", no_args_is_help=True
+)
 
-File = Annotated[Path, typer.Argument(metavar="CAMERA", help="ROS, OpenCV or Kalibr file.")]
+File = Annotated[
+    Path,
+    typer.Argument(metavar="CAMERA", help="ROS, OpenCV, Kalibr, mrcal, PhotonVision or COLMAP."),
+]
 Name = Annotated[str | None, typer.Option(help="Which camera of a file with several.")]
 
 
 @app.command()
-def show(file: File, *, name: Name = None, json: Json = False) -> None:
-    """Say what a camera file holds, and what is odd about it."""
-    from tagmetry.cli.camera_report import camera_lines, camera_table
-    from tagmetry.files import load_camera
+def show(
+    file: Annotated[Path, typer.Argument(metavar="CAMERA", help="Camera file, or a bank.")],
+    *,
+    name: Name = None,
+    json: Json = False,
+    step: Annotated[
+        float | None, typer.Option(help="Of a bank: step of the focus; larger ones are gaps.")
+    ] = None,
+) -> None:
+    """Say what a camera file or a bank of calibrations holds, and what is odd about it."""
+    from tagmetry.cli import bank_report, camera_report
+    from tagmetry.files import load_bank, load_camera
+    from tagmetry.files.bank import is_bank_file
 
-    camera = load_camera(file, name)
-    if json:
-        import json as json_text
-
-        typer.echo(json_text.dumps(camera_table(camera)))
+    if is_bank_file(file):
+        bank = load_bank(file)
+        _print(
+            json,
+            lambda: bank_report.bank_table(bank, step),
+            lambda: bank_report.bank_lines(bank, step),
+        )
     else:
+        camera = load_camera(file, name)
+        _print(
+            json,
+            lambda: camera_report.camera_table(camera),
+            lambda: camera_report.camera_lines(camera),
+        )
+
+
+@app.command()
+def bank(
+    file: Annotated[Path, typer.Argument(metavar="BANK", help="Bank; made where there is none.")],
+    *,
+    add: Annotated[
+        list[Path] | None,
+        typer.Option(help="Calibration with its focus to put in; may be given several times."),
+    ] = None,
+    approach: Annotated[
+        str | None, typer.Option(help="How those were focused: 'from near' or 'from far'.")
+    ] = None,
+    drop: Annotated[
+        str | None, typer.Option(help="Take out what stands at a setting: focus=35,zoom=200.")
+    ] = None,
+    zoom_is_digital: Annotated[
+        bool | None,
+        typer.Option("--digital-zoom/--optical-zoom", help="Zoom only enlarges the middle."),
+    ] = None,
+    may_scale: Annotated[
+        bool | None,
+        typer.Option("--may-scale/--no-scale", help="Other image sizes are the same, resampled."),
+    ] = None,
+    at: Annotated[
+        str | None,
+        typer.Option(help="Give the camera at a setting: focus=35,zoom=200,size=1920x1080."),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="File to write that camera to.")] = None,
+) -> None:
+    """Put calibrations into a bank, and get the camera at a focus and zoom between them."""
+    from tagmetry.cli.bank_edit import camera_at, edited
+    from tagmetry.cli.camera_report import camera_lines
+    from tagmetry.files import save_bank, save_camera
+
+    changes = (add, drop, zoom_is_digital, may_scale)
+    calibrations = edited(file, add or [], approach, drop, zoom_is_digital, may_scale)
+    camera = camera_at(calibrations, at, out)
+    if any(change is not None for change in changes):
+        save_bank(calibrations, file)
+        typer.echo(f"wrote bank of {len(calibrations.nodes)} -> {file}")
+    if camera is not None and out is not None:
+        save_camera(camera, out)
+        typer.echo(f"wrote {camera.width_px}x{camera.height_px} camera -> {out}")
+    elif camera is not None:
         typer.echo("\n".join(camera_lines(camera)))
 
 
@@ -37,7 +107,11 @@ def convert(
     out: Annotated[Path, typer.Argument(metavar="OUT", help="File to write.")],
     *,
     file_format: Annotated[
-        str, typer.Option("--format", help="ros, opencv (YAML, or JSON by suffix) or kalibr.")
+        str,
+        typer.Option(
+            "--format",
+            help="ros, opencv (YAML, or JSON by suffix), kalibr, mrcal, photonvision or colmap.",
+        ),
     ] = "ros",
     name: Name = None,
     crop: Annotated[
@@ -52,12 +126,15 @@ def convert(
     ] = 0,
 ) -> None:
     """Write a camera file in another format, or for images that were changed."""
+    from typing import get_args
+
     from tagmetry.camera import zoomed
     from tagmetry.errors import InputError
-    from tagmetry.files import load_camera, save_camera
+    from tagmetry.files import CameraFormat, load_camera, save_camera
 
-    if file_format not in ("ros", "opencv", "kalibr"):
-        raise InputError(f"unknown format {file_format!r}; there are ros, opencv and kalibr")
+    if file_format not in get_args(CameraFormat):
+        known = ", ".join(get_args(CameraFormat))
+        raise InputError(f"unknown format {file_format!r}; there are {known}")
     camera = _cropped(load_camera(file, name), crop)
     camera = _scaled(camera, scale_to)
     camera = zoomed(camera, zoom) if zoom is not None else camera
@@ -66,12 +143,23 @@ def convert(
     typer.echo(f"wrote {camera.width_px}x{camera.height_px} camera -> {out}")
 
 
+def _print(
+    as_json: bool, table: "Callable[[], dict[str, object]]", lines: "Callable[[], list[str]]"
+) -> None:
+    if as_json:
+        import json
+
+        typer.echo(json.dumps(table()))
+    else:
+        typer.echo("\n".join(lines()))
+
+
 def _cropped(camera: "Camera", window: str | None) -> "Camera":
     from tagmetry.camera import cropped
 
     if window is None:
         return camera
-    width_px, height_px, left_px, top_px = _numbers(
+    width_px, height_px, left_px, top_px = whole_numbers(
         window, "640x480+100+50", r"(\d+)x(\d+)\+(\d+)\+(\d+)"
     )
     return cropped(camera, left_px, top_px, width_px, height_px)
@@ -82,7 +170,7 @@ def _scaled(camera: "Camera", size: str | None) -> "Camera":
 
     if size is None:
         return camera
-    width_px, height_px = _numbers(size, "640x480", r"(\d+)x(\d+)")
+    width_px, height_px = whole_numbers(size, "640x480", r"(\d+)x(\d+)")
     return scaled(camera, width_px, height_px)
 
 
@@ -93,14 +181,3 @@ def _rotated(camera: "Camera", angle_deg: int) -> "Camera":
     if angle_deg % 90:
         raise InputError(f"images are turned by multiples of 90 degrees, got {angle_deg}")
     return rotated(camera, angle_deg // 90)
-
-
-def _numbers(text: str, example: str, pattern: str) -> tuple[int, ...]:
-    import re
-
-    from tagmetry.errors import InputError
-
-    match = re.fullmatch(pattern, text, re.ASCII)
-    if match is None or max(map(len, match.groups())) > 6:
-        raise InputError(f"expected pixels like {example}, found {text[:40]!r}")
-    return tuple(int(number) for number in match.groups())

@@ -1,5 +1,6 @@
 """The file of a bank of calibrations: our own YAML, checked strictly, with full precision."""
 
+import re
 from pathlib import Path
 from typing import Literal
 
@@ -12,10 +13,11 @@ from tagmetry.files.atomic import write_atomically
 from tagmetry.files.cameras.section import Section, completed
 from tagmetry.files.checked import OwnFileModel, checked
 from tagmetry.files.tables import Table, load_table, parse_table
-from tagmetry.files.text import named_errors
+from tagmetry.files.text import named_errors, read_text
 from tagmetry.files.yaml_writer import yaml_of
 
 _FORMAT, _VERSION = "camera bank", 1
+_MARK = re.compile(rf"""^[{{\s]*["']?tagmetry["']?\s*:\s*["']?{_FORMAT}""", re.MULTILINE)
 
 
 class _Node(OwnFileModel):
@@ -44,6 +46,15 @@ class _Bank(OwnFileModel):
 def is_bank(table: Table) -> bool:
     """Say whether a table is the file of a bank."""
     return table.get("tagmetry") == _FORMAT
+
+
+def is_bank_file(path: str | Path) -> bool:
+    """Say whether a file calls itself a bank, before it is parsed.
+
+    Raises:
+        InputError: It is missing or not text.
+    """
+    return _MARK.search(read_text(Path(path))) is not None
 
 
 def load_bank(path: str | Path) -> CameraBank:
