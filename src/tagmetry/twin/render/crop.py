@@ -34,15 +34,19 @@ class DigitalZoom:
         """Return the intrinsics of the picture that is given out."""
         return scaled(zoomed(sensor, self.zoom), *self._size_px(*sensor.size_px))
 
-    def pixels(self, image: AnyPixels) -> AnyPixels:
-        """Return the picture that is given out, of the type of the sensor's."""
+    def pixels(self, image: AnyPixels, white_grey: int) -> AnyPixels:
+        """Return the picture that is given out, of the type of the sensor's.
+
+        Args:
+            image: What the sensor made, shape (height, width).
+            white_grey: Its greatest grey value.
+        """
         height_px, width_px = image.shape
         if self.zoom == 1 and self._size_px(width_px, height_px) == (width_px, height_px):
             return image
         size_px = self._size_px(width_px, height_px)
         resampled = zoomed_pixels(image, self.zoom, *size_px, self.interpolation)
-        most = np.iinfo(image.dtype).max
-        return np.asarray(np.clip(np.rint(resampled), 0, most), dtype=image.dtype)
+        return np.asarray(np.clip(np.rint(resampled), 0, white_grey), dtype=image.dtype)
 
     def _size_px(self, width_px: int, height_px: int) -> tuple[int, int]:
         return self.width_px or width_px, self.height_px or height_px

@@ -2,7 +2,7 @@
 
 Each stands in the middle of its part of the exposure, so that places are exact. From one to the
 next things move by no more than the point spread smooths over (a blur of s px leaves
-exp(-2 pi^2 s^2 / d^2) of the steps of d px: 3e-9 for d = s), and by a quarter of a pixel without any.
+exp(-2 pi^2 s^2 / d^2) of steps of d px: 3e-9 for d = s), and by a quarter of a pixel without any.
 """
 
 from dataclasses import dataclass

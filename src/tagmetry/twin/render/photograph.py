@@ -25,6 +25,7 @@ def photograph(scene: Scene, shot: Shot, rng: np.random.Generator) -> AnyPixels:
         rng: Where the noise comes from.
     """
     light = exposed(scene, shot) * np.float32(shot.brightness)
-    pixels = shot.zoom.pixels(developed(light, replace(shot.sensor, jpeg_quality=None), rng))
+    raw = developed(light, replace(shot.sensor, jpeg_quality=None), rng)
+    pixels = shot.zoom.pixels(raw, shot.sensor.white_grey)
     quality = shot.sensor.jpeg_quality
     return pixels if quality is None else through_jpeg(pixels, quality)
