@@ -1,11 +1,13 @@
 """The camera model, its images, and what a source of images must be."""
 
 from tagmetry.camera.bank import Approach, BankNode, CameraBank, Gap, LeftOut, Repeat
+from tagmetry.camera.controls import Control, ControlledSource, ControlRefusedError, Controls
 from tagmetry.camera.image import Image
 from tagmetry.camera.lens import BrownLens, FisheyeLens, Lens
 from tagmetry.camera.model import Camera
 from tagmetry.camera.monotonic import DistortionReach, distortion_reach
 from tagmetry.camera.resize import cropped, rotated, scaled, zoomed
+from tagmetry.camera.restored import restored
 from tagmetry.camera.source import Source
 
 __all__ = [
@@ -14,6 +16,10 @@ __all__ = [
     "BrownLens",
     "Camera",
     "CameraBank",
+    "Control",
+    "ControlRefusedError",
+    "ControlledSource",
+    "Controls",
     "DistortionReach",
     "FisheyeLens",
     "Gap",
@@ -24,6 +30,7 @@ __all__ = [
     "Source",
     "cropped",
     "distortion_reach",
+    "restored",
     "rotated",
     "scaled",
     "zoomed",

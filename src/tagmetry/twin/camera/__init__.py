@@ -1,0 +1,25 @@
+"""Simulated cameras with controls, behind the same interfaces as real ones."""
+
+from tagmetry.twin.camera.camera import TwinCamera
+from tagmetry.twin.camera.device import Breathing, Device
+from tagmetry.twin.camera.dials import TwinControls
+from tagmetry.twin.camera.faults import Faults
+from tagmetry.twin.camera.focus_law import DioptreFocus, FixedFocus, FocusLaw, LogFocus
+from tagmetry.twin.camera.models import mono_camera, overhead_camera, webcam
+from tagmetry.twin.camera.setting import Setting
+
+__all__ = [
+    "Breathing",
+    "Device",
+    "DioptreFocus",
+    "Faults",
+    "FixedFocus",
+    "FocusLaw",
+    "LogFocus",
+    "Setting",
+    "TwinCamera",
+    "TwinControls",
+    "mono_camera",
+    "overhead_camera",
+    "webcam",
+]

@@ -1,0 +1,117 @@
+"""One image of a simulated camera: light on the sensor, its electrons, digital zoom, code.
+
+Where everything is far out of focus, the light is computed for larger pixels and interpolated: a
+pixel at most 1/8 of the least disc's radius adds at most 0.6 % to the disc's second moment.
+"""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import AnyPixels, FloatImage
+from tagmetry.twin.camera.device import Device
+from tagmetry.twin.camera.readout import Readout, coarser, finer, readout
+from tagmetry.twin.camera.setting import Setting
+from tagmetry.twin.render import Optics, Shot, Shutter, exposed
+from tagmetry.twin.scenes import Path, Scene
+from tagmetry.twin.sensor import developed
+from tagmetry.twin.spread import gaussian_kernel
+
+_DISC_PER_PIXEL = 8.0  # least radius of the discs by a pixel's side, where pixels are made larger
+_NEAREST_M = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Taking:
+    """One image about to be taken.
+
+    Attributes:
+        device: The camera's hardware.
+        setting: What it is set to.
+        scene: What there is to see.
+        path: Where the camera is, T_world_camera.
+        time_s: Middle of the exposure.
+    """
+
+    device: Device
+    setting: Setting
+    scene: Scene
+    path: Path
+    time_s: float
+
+    @property
+    def focus_m(self) -> float:
+        """The distance in focus."""
+        return self.device.focus_law.distance_m(self.setting.focus)
+
+    @property
+    def depths_m(self) -> list[Array]:
+        """Depths of every sheet's corners, those behind the camera just before it."""
+        times_s = np.array([self.time_s])
+        T_camera_world = self.path.at(times_s)[0].inv()
+        return [
+            np.maximum(
+                (T_camera_world * thing.path.at(times_s)[0] * sheet.T_thing_sheet).apply(
+                    sheet.corners_m
+                )[:, 2],
+                _NEAREST_M,
+            )
+            for thing in self.scene.things
+            for sheet in thing.sheets
+        ]
+
+
+def image_pixels(taking: Taking, rng: np.random.Generator) -> AnyPixels:
+    """Return a grey image, shape (height, width), uint8 or, above 8 bits, uint16."""
+    device, setting = taking.device, taking.setting
+    read = readout(device, setting.zoom_percent / 100, setting.focus)
+    sensor = read.sensor(setting.gain)
+    light = _softened(_light(taking, read), device.blur_px / read.binned) * read.vignette
+    light *= np.float32(device.sensitivity_per_s * setting.exposure_s)
+    signal = developed(light, sensor, rng).astype(np.float32) / np.float32(sensor.white_grey)
+    return developed(read.shown(signal), device.output, rng)
+
+
+def _light(taking: Taking, read: Readout) -> FloatImage:
+    """Return the light on the pixels that are read."""
+    times = _coarseness(taking, read)
+    light = exposed(taking.scene, _shot(taking, read, times))
+    return light if times == 1 else finer(light, read.camera, times, 1)
+
+
+def _shot(taking: Taking, read: Readout, times: int) -> Shot:
+    """Return what the renderer needs, with pixels so many times larger than those read."""
+    camera = read.camera if times == 1 else coarser(read.camera, times, 1)
+    line_s = taking.device.line_s * read.binned * times
+    return Shot(
+        camera,
+        taking.path,
+        taking.time_s,
+        Optics(lens=read.lens_of(times), focus_m=taking.focus_m),
+        Shutter(taking.setting.exposure_s, line_s),
+    )
+
+
+def _coarseness(taking: Taking, read: Readout) -> int:
+    """Return how many times larger pixels may be: a power of two."""
+    least_px = min(
+        (_least_disc_px(taking, read, depths_m) for depths_m in taking.depths_m), default=0.0
+    )
+    return int(2 ** max(np.floor(np.log2(max(least_px / _DISC_PER_PIXEL, 1.0))), 0))
+
+
+def _least_disc_px(taking: Taking, read: Readout, depths_m: Array) -> float:
+    """Return the radius of the least disc that a sheet can have between its corners' depths."""
+    sharpest_m = np.clip(taking.focus_m, depths_m.min(), depths_m.max())
+    return float(read.lens_of(1).blur_radius_px(sharpest_m, taking.focus_m))
+
+
+def _softened(light: FloatImage, deviation_px: float) -> FloatImage:
+    """Return light of which the pixels share some with their neighbours."""
+    if deviation_px == 0:
+        return light
+    kernel = gaussian_kernel(deviation_px)
+    done = cv2.sepFilter2D(light, cv2.CV_32F, kernel, kernel, borderType=cv2.BORDER_REPLICATE)
+    return np.asarray(done, np.float32)
