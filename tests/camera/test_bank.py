@@ -29,6 +29,7 @@ from tagmetry.camera import (
     scaled,
     zoomed,
 )
+from tagmetry.camera.bank.between import re_expressed
 from tagmetry.errors import InputError
 
 SIZE = {"width_px": WIDTH_PX, "height_px": HEIGHT_PX}
@@ -119,6 +120,14 @@ def test_rays_blend_where_coefficients_do_not() -> None:
     assert max(rays_px) < 0.2
     assert np.median(coefficients_px) > 1.0
     assert max(coefficients_px) > 5.0
+
+
+def test_a_lens_is_expressed_near_other_coefficients() -> None:
+    rng = np.random.default_rng(1)
+    cameras = [refitted(focus, rng) for focus in (0.0, 25.0, 50.0)]
+    for like in cameras[1:]:
+        found = re_expressed(cameras[0], like)
+        assert np.sqrt(np.mean(error_px(found, cameras[0]) ** 2)) < 0.05
 
 
 def test_five_coefficients_blend_as_well_as_rays() -> None:
@@ -322,6 +331,12 @@ def test_refuses_what_is_no_bank() -> None:
         BankNode(breathing(0), "sideways")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="focus 0: the covariance must be finite"):
         BankNode(replace(breathing(0), covariance=np.full((9, 9), np.inf)))
+
+
+def test_refuses_a_distortion_that_folds_everywhere() -> None:
+    folded = [replace(breathing(focus), lens=BrownLens((-1e9, 0.0, 0.0, 0.0))) for focus in (0, 10)]
+    with pytest.raises(InputError, match="at focus 0, 10 folds over nearly the whole image"):
+        CameraBank(tuple(map(BankNode, folded))).camera_at(focus=5)
 
 
 def test_the_smallest_image_does_no_harm() -> None:

@@ -19,6 +19,7 @@ import numpy as np
 
 from tagmetry.camera.bank.parameters import parameters, pixel_grid, with_parameters
 from tagmetry.camera.model import Camera
+from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import Array, BoolArray
 
 _STEPS = 20
@@ -37,12 +38,16 @@ def camera_between(cameras: Sequence[Camera], settings: Array, setting: float) -
     Returns:
         The camera with a covariance, independent errors of the calibrations presumed, where all
         calibrations that have a say have one. Zoom, focus and name are those of the nearest.
+
+    Raises:
+        InputError: The calibrations share too few rays.
     """
     near = _having_a_say(settings, setting)
     cameras, settings = cameras[near], settings[near]
     pixels = pixel_grid(cameras[0])
     maps = np.stack([_chart(camera.unproject(pixels)) for camera in cameras])
-    seen = np.isfinite(maps).all(axis=(0, 2))
+    seen = np.asarray(np.isfinite(maps).all(axis=(0, 2)))
+    _check_seen(cameras, seen)
     maps, pixels = maps[:, seen], pixels[seen]
     nearest = cameras[int(np.abs(settings - setting).argmin())]
     q = _cubic(settings, maps, setting)
@@ -62,7 +67,8 @@ def re_expressed(camera: Camera, like: Camera) -> Camera:
     """
     pixels = pixel_grid(camera)
     q = _chart(camera.unproject(pixels))
-    seen = np.isfinite(q).all(axis=-1)
+    seen = np.asarray(np.isfinite(q).all(axis=-1))
+    _check_seen([camera], seen)
     found = _fitted(like, q[seen], pixels[seen])
     if camera.covariance is None:
         return found
@@ -84,6 +90,16 @@ def carried_errors(camera: Camera, errors_px: Array) -> Array:
     jacobian, seen = _parameter_jacobian(camera, camera.unproject(pixel_grid(camera)))
     errors_px = np.nan_to_num(errors_px[:, seen]).reshape(len(errors_px), len(jacobian))
     return np.asarray(errors_px @ _pseudo_inverse(jacobian).T)
+
+
+def _check_seen(cameras: Sequence[Camera], seen: BoolArray) -> None:
+    if 2 * seen.sum() >= cameras[0].parameter_count:
+        return
+    foci = ", ".join(f"{camera.focus:g}" for camera in cameras if camera.focus is not None)
+    raise InputError(
+        f"the distortion of the calibrations at focus {foci} folds over nearly the whole image; "
+        "look for a bad one with tagmetry camera show"
+    )
 
 
 def _having_a_say(settings: Array, setting: float) -> slice:
