@@ -19,7 +19,7 @@ from tagmetry.markers import CharucoBoard
 
 _AROUND = 1.9  # squares from a corner to the centres of the markers that predict it
 _TOUCHING = 0.75  # squares from a corner to the centres of the markers that touch it
-_LEAST_ARM = 0.05
+_LEAST_ARM_PX, _LEAK_PX = 1.5, 2.0
 _LEAST_SHARE = 0.6
 _DOUBTFUL = 0.05  # sides of a marker, mean
 
@@ -92,7 +92,7 @@ def _predict(place_m: Array, markers_m: Array, markers_px: Array, board: Charuco
 
 
 def _arm(board: CharucoBoard, along_px: Array) -> float:
-    """Return how far from an edge no marker lies, in squares, less a pixel of blur."""
-    white = (1 - board.size_m / board.square_m) / 2
-    square_px = float(np.nanmedian(np.linalg.norm(along_px, axis=1)))
-    return max(_LEAST_ARM, white - 1.0 / max(square_px, 1.0))
+    """Return how far from an edge no marker lies, in squares, less what blur carries over."""
+    square_px = max(1.0, float(np.nanmedian(np.linalg.norm(along_px, axis=1))))
+    white_px = square_px * (1 - board.size_m / board.square_m) / 2
+    return max(_LEAST_ARM_PX, white_px - _LEAK_PX) / square_px

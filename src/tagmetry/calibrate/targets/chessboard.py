@@ -26,6 +26,7 @@ from tagmetry.markers import Chessboard
 
 _SMALL_PX = 1100  # long side of the picture in which a board is looked for first
 _LARGE_PX = 4500
+_SMALLEST_PX = 24  # the finders cannot look at less
 _LEAST_ALTERNATING = 0.9
 _LEAST_KEPT = 0.5
 _CLASSIC = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE
@@ -44,6 +45,8 @@ def find_chessboard(
     """
     wanted = f"{board.corner_columns}x{board.corner_rows} inner corners"
     nothing = NotFound(f"no chessboard with {wanted} is seen whole")
+    if min(grey.shape) < _SMALLEST_PX:
+        return nothing
     for grid_px, coarse_px in _seen(grey, board, thorough=thorough):
         greys = square_greys(grey, grid_px)
         if is_even(grid_px) and share_alternating(greys) >= _LEAST_ALTERNATING:

@@ -22,6 +22,7 @@ from tagmetry.markers import CircleGrid
 
 _FARTHEST = 0.25  # of the distance between discs: how far one may lie from where one plane puts it
 _LEAST_KEPT = 0.5
+_SMALLEST_PX2 = 12.0
 
 
 def find_circles(grey: GreyPixels, board: CircleGrid) -> Found | NotFound:
@@ -85,7 +86,8 @@ def _stretched(grey: GreyPixels) -> GreyPixels:
 
 def _blobs(grey: GreyPixels, board: CircleGrid) -> cv2.SimpleBlobDetector:
     wanted = cv2.SimpleBlobDetector.Params()
-    wanted.minArea, wanted.maxArea = 12.0, grey.size / (board.columns * board.rows)
+    largest_px2 = grey.size / (board.columns * board.rows)
+    wanted.minArea, wanted.maxArea = _SMALLEST_PX2, max(largest_px2, 2 * _SMALLEST_PX2)
     wanted.minThreshold, wanted.maxThreshold, wanted.thresholdStep = 20.0, 235.0, 10.0
     wanted.minDistBetweenBlobs = 4.0
     return cv2.SimpleBlobDetector.create(wanted)

@@ -78,7 +78,7 @@ def _weighed(places: Array, values: Array, on_rim: BoolArray, centre: Array) -> 
     plane = np.column_stack([np.ones(len(places)), places])
     to_plane = np.linalg.pinv(plane[on_rim])
     ground = plane @ (to_plane @ values[on_rim])
-    noise = (values - ground)[on_rim].std() + 1 / np.sqrt(12)
+    noise = max(float((values - ground)[on_rim].std()), 1 / np.sqrt(12))
     dark = ground - values
     total = dark.sum()
     if total < _LEAST_CONTRAST * 0.3 * len(dark) or dark.max() < 5 * noise:

@@ -19,6 +19,7 @@ _SMOOTH_PX = 0.8
 _LARGEST_PATCH_PX = 24
 _BURNT = 254
 _MOST_POINTS = 150
+_NEIGHBOURS = 4
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class ViewQuality:
         sharp_px: The same of the sharper direction.
         saturated_share: Share of the pixels around the points that are fully white or black.
         contrast: White minus black, grey values of 0 to 255, median over the points.
-        spacing_px: From a point to the next one, median.
+        spacing_px: From a point to its four neighbours, mean, median over the points.
         touches_border: A point lies within five pixels of the picture's edge.
     """
 
@@ -69,8 +70,8 @@ class QualityLimits:
             return f"too little contrast: {quality.contrast:.0f} grey values; more or softer light"
         if quality.saturated_share > self.saturated_share:
             return (
-                f"overexposed: {quality.saturated_share:.0%} of the pixels around the corners are "
-                "saturated; a shorter exposure or less gain"
+                f"clipped: {quality.saturated_share:.0%} of the pixels around the corners are "
+                "fully white or black; another exposure, less gain or less contrast"
             )
         if quality.blur_px > self.motion_px and ratio > self.motion_ratio:
             return (
@@ -151,8 +152,9 @@ def _some(count: int) -> IntArray:
 def _spacings_px(places_px: Array) -> Array:
     from scipy.spatial import cKDTree
 
-    distances = np.asarray(cKDTree(places_px).query(places_px, k=2)[0])
-    return np.asarray(distances[:, 1])
+    around = min(_NEIGHBOURS, len(places_px) - 1)
+    distances = np.asarray(cKDTree(places_px).query(places_px, k=around + 1)[0])
+    return np.asarray(distances[:, 1:].mean(axis=1))
 
 
 def _edge_normals(view: BoardView) -> Array:
