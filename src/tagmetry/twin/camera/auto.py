@@ -19,7 +19,7 @@ from tagmetry.twin.camera.setting import Setting
 _WANTED_GREY = 0.45
 _NEAR_ENOUGH = 0.02
 _MOST_CHANGE = 4.0
-_COARSER = 4  # sharpness is looked at in an image so many times smaller
+_COARSER = 2  # sharpness is looked at in an image so many times smaller
 _FIRST_SHARE = 1 / 8  # of the control's range, the first step of auto focus
 _CHANGED = 0.3
 

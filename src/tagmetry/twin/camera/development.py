@@ -78,12 +78,12 @@ def _light(taking: Taking, read: Readout) -> FloatImage:
     """Return the light on the pixels that are read."""
     times = _coarseness(taking, read)
     light = exposed(taking.scene, _shot(taking, read, times))
-    return light if times == 1 else finer(light, read.camera, times, 1)
+    return light if times == 1 else finer(light, read.camera, times)
 
 
 def _shot(taking: Taking, read: Readout, times: int) -> Shot:
     """Return what the renderer needs, with pixels so many times larger than those read."""
-    camera = read.camera if times == 1 else coarser(read.camera, times, 1)
+    camera = read.camera if times == 1 else coarser(read.camera, times)
     line_s = taking.device.line_s * read.binned * times
     return Shot(
         camera,

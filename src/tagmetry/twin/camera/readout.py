@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from tagmetry.camera import Camera, cropped, scaled
 from tagmetry.geometry.arrays import FloatImage
@@ -20,6 +21,7 @@ from tagmetry.twin.vignetting import gain_map
 
 _MARGIN_PX = 4  # more than any interpolation reaches beyond the pixels that are shown
 _VIGNETTE_PX = 16  # the corners darken so slowly that every 16th pixel tells
+_BORDER = 2  # as far as the interpolation of larger pixels reaches
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,19 +54,30 @@ class Readout:
 
     def shown(self, signal: FloatImage) -> FloatImage:
         """Return the image's share of what was read, resampled to the image's size."""
-        sizes_px = (self.camera.size_px, self.device.sensor.size_px, self.device.size_px)
-        across, down = (
-            resampling(part_px, out_px, zoom, self.device.interpolation)
-            for part_px, whole_px, out_px in zip(*sizes_px, strict=True)
-            for zoom in [self.zoom * part_px * self.binned / whole_px]
-        )
+        width_px, height_px = self.device.size_px
+        left_px, top_px = self.camera.width_px - width_px, self.camera.height_px - height_px
+        if self._is_as_read and left_px % 2 == top_px % 2 == 0:
+            return signal[top_px // 2 :, left_px // 2 :][:height_px, :width_px]
+        across, down = self._resampling(0), self._resampling(1)
         return np.asarray((across @ (down @ signal).T).T, np.float32)
+
+    @property
+    def _is_as_read(self) -> bool:
+        """Whether a pixel of the image is a pixel that is read."""
+        read_px = self.device.sensor.width_px / self.binned
+        return bool(np.isclose(self.zoom * self.device.size_px[0], read_px, rtol=1e-12, atol=0))
+
+    def _resampling(self, axis: int) -> csr_array:
+        """Return the weights along x or y; what is read is less than the sensor."""
+        read_px = self.camera.size_px[axis]
+        zoom = self.zoom * read_px * self.binned / self.device.sensor.size_px[axis]
+        return resampling(read_px, self.device.size_px[axis], zoom, self.device.interpolation)
 
     @cached_property
     def vignette(self) -> FloatImage:
         """How much light each pixel gets, shape (height, width)."""
-        rough = coarser(self.camera, _VIGNETTE_PX, 1)
-        return finer(gain_map(rough, self.device.vignetting), self.camera, _VIGNETTE_PX, 1)
+        rough = coarser(self.camera, _VIGNETTE_PX)
+        return finer(gain_map(rough, self.device.vignetting), self.camera, _VIGNETTE_PX)
 
 
 @lru_cache(maxsize=8)
@@ -78,17 +91,17 @@ def readout(device: Device, zoom: float, focus: float) -> Readout:
     return Readout(device, zoom, cropped(whole, left_px, top_px, width_px, height_px), binned)
 
 
-def coarser(camera: Camera, times: int, border: int) -> Camera:
+def coarser(camera: Camera, times: int) -> Camera:
     """Return a camera with larger pixels and whole ones of them around the image."""
-    columns, rows = (-(-size_px // times) + 2 * border for size_px in camera.size_px)
-    edge_px = times * border
+    columns, rows = (-(-size_px // times) + 2 * _BORDER for size_px in camera.size_px)
+    edge_px = times * _BORDER
     wide = cropped(camera, -edge_px, -edge_px, times * columns, times * rows)
     return scaled(wide, columns, rows)
 
 
-def finer(image: FloatImage, camera: Camera, times: int, border: int) -> FloatImage:
+def finer(image: FloatImage, camera: Camera, times: int) -> FloatImage:
     """Return an image of the coarser camera with the pixels of the camera itself."""
-    (rows, columns), edge_px = image.shape, times * border
+    (rows, columns), edge_px = image.shape, times * _BORDER
     across = resampling(columns, times * columns, 1.0, "cubic")
     down = resampling(rows, times * rows, 1.0, "cubic")
     fine = np.asarray((across @ (down @ image).T).T, np.float32)
