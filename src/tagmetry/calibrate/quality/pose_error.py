@@ -12,30 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tagmetry.calibrate.quality.places import Place, poses_at
 from tagmetry.calibrate.quality.solved import honest_covariance
 from tagmetry.calibrate.result import Calibration
 from tagmetry.camera import Camera
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform, cross_matrix
-from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import marker_corners_m
-
-
-@dataclass(frozen=True)
-class MarkerPlace:
-    """Where a marker is, as the picture shows it.
-
-    Attributes:
-        pixel: Its centre, (u, v).
-        distance_m: From the camera to its centre.
-        tilt_deg: Between its normal and the line to the camera.
-        direction_deg: To which side of the picture it is tilted: 0 right, 90 down.
-    """
-
-    pixel: tuple[float, float]
-    distance_m: float
-    tilt_deg: float = 30.0
-    direction_deg: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +33,7 @@ class PoseError:
         by_corners: Covariance that the corners' noise gives in one picture.
     """
 
-    place: MarkerPlace
+    place: Place
     T_camera_marker: RigidTransform
     by_calibration: Array
     by_corners: Array
@@ -92,7 +75,7 @@ class PoseError:
 def pose_error(
     calibration: Calibration,
     size_m: float,
-    places: Sequence[MarkerPlace],
+    places: Sequence[Place],
     corner_sd_px: float = 0.1,
 ) -> tuple[PoseError, ...]:
     """Return how wrong a marker's pose is at places.
@@ -114,34 +97,11 @@ def pose_error(
     )
 
 
-def marker_at(camera: Camera, place: MarkerPlace) -> RigidTransform:
-    """Return T_camera_marker of an upright marker at a place.
-
-    Raises:
-        InputError: The lens shows nothing at the pixel.
-    """
-    _check_positive(distance_m=place.distance_m)
-    ray = camera.unproject(np.array(place.pixel))
-    if not np.isfinite(ray).all():
-        raise InputError(f"the lens shows nothing at pixel {place.pixel}; choose one it shows")
-    upright = Rotation.from_matrix(facing(ray))
-    side = np.radians(place.direction_deg)
-    axis_camera = upright.apply([np.sin(side), np.cos(side), 0.0])
-    tilt = Rotation.from_rotvec(np.radians(place.tilt_deg) * axis_camera)
-    return RigidTransform.from_components(ray * place.distance_m, tilt * upright)
-
-
-def facing(ray: Array) -> Array:
-    """Return R_camera_marker of a marker that faces the camera upright along a ray (3,)."""
-    right = np.cross([0.0, 1.0, 0.0], ray)
-    right = right / np.linalg.norm(right)
-    return np.stack([right, np.cross(right, ray), -ray], axis=1)
-
-
 def _pose_error(
-    camera: Camera, covariance: Array, size_m: float, place: MarkerPlace, corner_sd_px: float
+    camera: Camera, covariance: Array, size_m: float, place: Place, corner_sd_px: float
 ) -> PoseError:
-    T = marker_at(camera, place)
+    _check_positive(distance_m=place.distance_m)
+    T = poses_at(camera, [place])[0]
     arms = T.rotation.apply(marker_corners_m(size_m))
     p_camera = arms + T.translation
     pixels, by_point = camera.project_with_jacobian(p_camera)

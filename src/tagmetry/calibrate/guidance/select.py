@@ -1,0 +1,93 @@
+"""The few most informative views of many, as of a long video.
+
+A camera from a few views far apart from each other says where the board was in all of them. Each
+view's information on the intrinsics, its own pose eliminated, is then a small matrix, and views
+are taken one by one: always the one after which projections are least uncertain in the mean over
+the image. The gain of a view falls with every other that is taken, so that taking the best each
+time is never far from the best choice of all.
+
+Reference: G. Nemhauser, L. Wolsey, M. Fisher, An analysis of approximations for maximizing
+submodular set functions, 1978; A. Krause et al., Near-optimal sensor placements, 2008.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tagmetry.calibrate.calibrate import calibrate
+from tagmetry.calibrate.guidance.gate import distance_px
+from tagmetry.calibrate.guidance.knowledge import Knowledge, bundle_of
+from tagmetry.calibrate.sightings import gather
+from tagmetry.calibrate.view import BoardView
+from tagmetry.errors import InputError
+from tagmetry.geometry import Array
+
+_FIRST = 12  # views for a camera to begin with
+
+
+def most_informative(views: Sequence[BoardView], count: int) -> tuple[int, ...]:
+    """Return which views to calibrate with, the most informative first.
+
+    Args:
+        views: Of one board, in pictures of one size.
+        count: How many are wanted; all views where there are fewer.
+
+    Raises:
+        InputError: No views, fewer than one wanted, or views of several sizes.
+    """
+    if not views or count < 1:
+        raise InputError(f"expected at least one view and a count, got {len(views)} and {count}")
+    known = _first_knowledge(views)
+    seen = gather(views)
+    told = known.of_views(bundle_of(known.camera, seen), seen)
+    usable = [int(i) for i in np.flatnonzero(np.isfinite(told).all(axis=(1, 2)))]
+    return tuple(_greedily(known, told, usable, min(count, len(usable))))
+
+
+def far_apart(views: Sequence[BoardView], count: int) -> list[int]:
+    """Return views whose corners are far from those of each other, beginning with the first."""
+    chosen = [0]
+    nearest = np.array([_apart(views[0], view) for view in views])
+    while len(chosen) < min(count, len(views)) and nearest.max() > 0:
+        chosen.append(int(nearest.argmax()))
+        apart = np.array([_apart(views[chosen[-1]], view) for view in views])
+        nearest = np.minimum(nearest, apart)
+    return chosen
+
+
+def _first_knowledge(views: Sequence[BoardView]) -> Knowledge:
+    """Return the camera of a few views, known as roughly as any camera is."""
+    few = [views[i] for i in far_apart(views, _FIRST)]
+    rough = Knowledge.rough(views[0].size_px)
+    try:
+        calibration = calibrate(few, "brown4")
+    except InputError:  # the few do not determine a camera: a rough one serves
+        return rough
+    solved = Knowledge.of_calibration(calibration)
+    information = _carried(rough, solved)
+    return Knowledge(
+        solved.camera, solved.freedom, information, solved.to_pixels, 1.0, solved.corner_sd_px
+    )
+
+
+def _carried(rough: Knowledge, solved: Knowledge) -> Array:
+    """Return the rough camera's information in the steps of another's freedom."""
+    to_rough = np.linalg.pinv(rough.freedom.basis) @ solved.freedom.basis
+    return np.asarray(to_rough.T @ rough.information @ to_rough)
+
+
+def _greedily(known: Knowledge, told: Array, left: list[int], count: int) -> list[int]:
+    """Return the views after which the mean variance over the image is least, one by one."""
+    spread = np.einsum("gim,gik->mk", known.to_pixels, known.to_pixels)
+    information, chosen = known.information, []
+    for _ in range(count):
+        after = np.linalg.inv(information + told[left])
+        best = left.pop(int(np.argmin(np.einsum("nmk,km->n", after, spread))))
+        information = information + told[best]
+        chosen.append(best)
+    return chosen
+
+
+def _apart(view: BoardView, other: BoardView) -> float:
+    """Return the distance of two views; views without a common corner are as far as can be."""
+    return min(distance_px(view, other), float(np.hypot(*view.size_px)))
