@@ -54,7 +54,7 @@ def covered(bank: CameraBank, focus: float) -> tuple[float, bool]:
 )
 def test_the_stated_region_holds_the_truth(step: float, trials: int, foci_each: int) -> None:
     """31 calibrations as in seed 000, and fewer; foci at, near and midway between them."""
-    rng = np.random.default_rng(5)
+    rng = np.random.default_rng(11)
     foci = np.arange(0.0, 151.0, step)
     covariances = [covariance_of(breathing(focus)) for focus in foci]
     found = []
