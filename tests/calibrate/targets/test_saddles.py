@@ -37,7 +37,7 @@ def test_it_is_closer_than_opencv_s() -> None:
     shown = picture(BOARD, noise=5.0)
     along, down = steps(shown.truth_px)
     ours = fit_saddles(shown.pixels, shown.truth_px, along, down).centres_px
-    guess = np.array(shown.truth_px.tolist(), np.float32)[:, None]
+    guess = shown.truth_px.astype(np.float32, order="C").reshape(-1, 1, 2)
     stop = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_MAX_ITER, 50, 1e-4)
     theirs = cv2.cornerSubPix(shown.pixels, guess, (7, 7), (-1, -1), stop)[:, 0]
     rms_ours, rms_theirs = (np.sqrt(((c - shown.truth_px) ** 2).mean()) for c in (ours, theirs))
