@@ -47,11 +47,11 @@ def fit_flat(seen: Sightings, wanted: Wanted, *, robust: bool) -> Fit:
     return refit(begin(seen, wanted), seen, wanted, robust=robust)
 
 
-def refit(start: Bundle, seen: Sightings, wanted: Wanted, *, robust: bool) -> Fit:
+def refit(start: Bundle, seen: Sightings, wanted: Wanted, *, robust: bool, steps: int = 100) -> Fit:
     """Return the best camera near a start of the same or a simpler lens."""
     freedom = Freedom(wanted.basis())
     start = wanted.conform(start, seen.size_px)
-    return _solved(start, seen, freedom, robust=robust)
+    return _solved(start, seen, freedom, robust=robust, steps=steps)
 
 
 def release_shape(flat: Fit, seen: Sightings, *, robust: bool) -> Fit:
@@ -96,12 +96,15 @@ def begin(seen: Sightings, wanted: Wanted) -> Bundle:
     return best[1]
 
 
-def _solved(start: Bundle, seen: Sightings, freedom: Freedom, *, robust: bool) -> Fit:
+def _solved(
+    start: Bundle, seen: Sightings, freedom: Freedom, *, robust: bool, steps: int = 100
+) -> Fit:
     """Return the best fit near a start, of the corners that fit or of all."""
     if robust:
         solution, kept = solve_robustly(start, seen, freedom)
     else:
-        solution = solve(settle_softly(start, seen, freedom, rounds=2).bundle, seen, freedom)
+        settled = settle_softly(start, seen, freedom).bundle
+        solution = solve(settled, seen, freedom, steps)
         kept = seen.used
     if not np.isfinite(solution.cost):
         raise InputError(

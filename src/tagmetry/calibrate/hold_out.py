@@ -11,24 +11,24 @@ from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import IntArray
 
 _MOST_ROUNDS = 20
-_MOST_STEPS = 10  # from the solution of all views: only along valleys of no consequence are more
+_MOST_STEPS = 6  # from the solution of all views; more only go along valleys
 
 
-def hold_out_px(fit: Fit) -> float:
+def hold_out_px(fit: Fit, most_rounds: int = _MOST_ROUNDS) -> float:
     """Return the root of the mean squared 2-D error over left-out views, weighted by corners."""
-    squares, corners = hold_out_squares_px2(fit), fit.seen.used.sum(axis=1)
+    squares, corners = hold_out_squares_px2(fit, most_rounds), fit.seen.used.sum(axis=1)
     return float(np.sqrt((squares * corners).sum() / corners.sum()))
 
 
-def hold_out_squares_px2(fit: Fit) -> Array:
+def hold_out_squares_px2(fit: Fit, most_rounds: int = _MOST_ROUNDS) -> Array:
     """Return the mean squared 2-D error of each left-out view, shape (n,), px^2.
 
-    Each view is left out once, alone for up to 20 views and in 20 interleaved groups for more.
+    Each view is left out once, alone or, with more views than rounds, in interleaved groups.
     The camera (and the board's shape) is solved from the others; then only the view's own pose is
     fitted, to all of its corners. Infinite where the others lead to no camera that shows it.
     """
     n = len(fit.seen)
-    rounds = min(n, _MOST_ROUNDS)
+    rounds = min(n, most_rounds)
     squares = np.full(n, np.inf)
     for first in range(rounds):
         group = np.arange(first, n, rounds)

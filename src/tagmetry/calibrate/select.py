@@ -1,8 +1,9 @@
 """Which lens model the views support, by three tests together.
 
 The error on the fitted corners falls with every coefficient, so it decides nothing. A model must
-be one to one over the image, or as nearly so as the best; of those it must show left-out views
-within 1 % of the best; of those the Bayesian information criterion is least.
+show left-out views at most 15 % worse than the best; of those it must be one to one over the
+image, or as nearly so as any; of those show left-out views within 1 % of the best; and of those
+the one with the least Bayesian information criterion wins.
 
 Reference: G. Schwarz, Estimating the Dimension of a Model, 1978.
 """
@@ -11,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tagmetry.calibrate.bundle import Bundle, errors_px
+from tagmetry.calibrate.bundle import errors_px
 from tagmetry.calibrate.choice import LENS_NAMES, LensName, ModelChoice, ModelRow
 from tagmetry.calibrate.fit import Fit, begin, fit_flat, refit
 from tagmetry.calibrate.freedom import Wanted
@@ -21,7 +22,9 @@ from tagmetry.camera import distortion_reach
 from tagmetry.errors import InputError
 
 _GENERAL: tuple[LensName, ...] = ("brown5", "fisheye")
-_HOLD_OUT_SLACK = 1.01
+_FAR_SLACK, _HOLD_OUT_SLACK = 1.15, 1.01
+_ROUNDS = 8  # of leaving views out, for each of nine models
+_MOST_STEPS = 30
 _MONOTONIC_SLACK = 0.005
 
 
@@ -61,30 +64,32 @@ def select_model(general: Fit, wanted: Wanted) -> Selected:
     rows = {name: _row(name, fit) for name, fit in fits.items()}
     finalists = _finalists(list(rows.values()))
     chosen = min(finalists, key=lambda row: row.bic)
-    told = tuple(_told(row, rows, finalists, chosen) for row in rows.values())
+    told = tuple(_told(row, finalists, chosen) for row in rows.values())
     return Selected(fits[chosen.name], ModelChoice(chosen.name, told, _reason(chosen, finalists)))
 
 
 def _fits(general: Fit, wanted: Wanted) -> dict[LensName, Fit]:
-    """Return every model's fit to the same corners; a model that no start leads to is missing.
-
-    Larger lenses start from the next smaller one.
-    """
+    """Return every model's fit to the same corners; a model that no start leads to is missing."""
     fits: dict[LensName, Fit] = {}
     for name in LENS_NAMES:
         kind = replace(wanted, lens=name)
         try:
-            fits[name] = refit(_start(general, fits, kind), general.seen, kind, robust=False)
+            fits[name] = _refitted(general, fits, kind)
         except InputError:
             continue
     return fits
 
 
-def _start(general: Fit, fits: dict[LensName, Fit], kind: Wanted) -> Bundle:
+def _refitted(general: Fit, fits: dict[LensName, Fit], kind: Wanted) -> Fit:
+    """Return the best fit of one lens from the starts there are; larger lenses from smaller."""
     before = [fit.bundle for fit in fits.values() if fit.bundle.kind == kind.kind]
-    if kind.coefficients > 5 and before:
-        return before[-1]
-    return general.bundle if general.bundle.kind == kind.kind else begin(general.seen, kind)
+    starts = before[-1:] if kind.coefficients > 5 else []
+    if general.bundle.kind != kind.kind:
+        starts = [*starts, begin(general.seen, kind)]
+    elif not starts:
+        starts = [general.bundle]
+    fitted = [refit(s, general.seen, kind, robust=False, steps=_MOST_STEPS) for s in starts]
+    return min(fitted, key=lambda fit: fit.scale)
 
 
 def _row(name: LensName, fit: Fit) -> ModelRow:
@@ -95,7 +100,7 @@ def _row(name: LensName, fit: Fit) -> ModelRow:
         name=name,
         parameters=fit.freedom.count,
         rms_px=float(np.sqrt(squares / count)),
-        hold_out_px=hold_out_px(fit),
+        hold_out_px=hold_out_px(fit, _ROUNDS),
         bic=bayesian_information(fit),
         monotonic_share=reach.covered_share,
         verdict="",
@@ -111,25 +116,27 @@ def bayesian_information(fit: Fit) -> float:
 
 
 def _finalists(rows: list[ModelRow]) -> list[ModelRow]:
-    widest = max(row.monotonic_share for row in rows)
-    safe = [row for row in rows if row.monotonic_share >= widest - _MONOTONIC_SLACK]
-    least = min(row.hold_out_px for row in safe)
-    return [row for row in safe if row.hold_out_px <= _HOLD_OUT_SLACK * least]
+    able = _within(rows, _FAR_SLACK)
+    widest = max(row.monotonic_share for row in able)
+    safe = [row for row in able if row.monotonic_share >= widest - _MONOTONIC_SLACK]
+    return _within(safe, _HOLD_OUT_SLACK)
 
 
-def _told(
-    row: ModelRow, rows: dict[LensName, ModelRow], finalists: list[ModelRow], chosen: ModelRow
-) -> ModelRow:
+def _within(rows: list[ModelRow], slack: float) -> list[ModelRow]:
+    least = min(row.hold_out_px for row in rows)
+    return [row for row in rows if row.hold_out_px <= slack * least]
+
+
+def _told(row: ModelRow, finalists: list[ModelRow], chosen: ModelRow) -> ModelRow:
     """Return the row with its verdict in words."""
-    widest = max(other.monotonic_share for other in rows.values())
     if row is chosen:
         verdict = "chosen"
     elif row in finalists:
         verdict = "as good on left-out views, but needs more parameters than it is worth"
-    elif row.monotonic_share < widest - _MONOTONIC_SLACK:
-        verdict = f"folds back over {1 - row.monotonic_share:.0%} of the image"
     elif not np.isfinite(row.hold_out_px):
         verdict = "cannot be solved without some of the views"
+    elif row.monotonic_share < chosen.monotonic_share - _MONOTONIC_SLACK:
+        verdict = f"folds back over {1 - row.monotonic_share:.0%} of the image"
     else:
         verdict = f"{row.hold_out_px / chosen.hold_out_px - 1:.0%} worse on left-out views"
     return replace(row, verdict=verdict)
