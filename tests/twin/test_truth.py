@@ -10,6 +10,7 @@ from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import CharucoBoard, MountedMarker, marker_corners_m
 from tagmetry.twin import Optics, Scene, Shot, Shutter
+from tagmetry.twin.render import DigitalZoom
 from tagmetry.twin.scenes import Steady, Still, board_thing, marker_thing, surface
 from tagmetry.twin.thin_lens import ThinLens
 from tagmetry.twin.truth import MarkerTruth, image_truth, truth_line
@@ -180,6 +181,15 @@ def test_motion_blur_leaves_the_middle_of_the_exposure() -> None:
     moving = alone(at(0, 0, 1), path=path, shutter=Shutter(0.02), time_s=0.1)
     still = alone(at(-0.1, 0, 1))
     np.testing.assert_allclose(moving.corners_px, still.corners_px, atol=1e-9)
+
+
+def test_a_digital_zoom_moves_corners_and_cuts_markers_off() -> None:
+    """Zoomed by 2 and halved in size: the middle half of the sensor at its own scale."""
+    edge_m = (160 - 0.5 - 319.5) / 500  # the window begins half a pixel before column 160
+    zoom = DigitalZoom(2.0, 320, 240)
+    whole, one = alone(at(edge_m, 0, 1)), alone(at(edge_m, 0, 1), zoom=zoom)
+    np.testing.assert_allclose(one.corners_px, whole.corners_px - [160, 120], atol=1e-9)
+    assert (whole.visible_fraction, one.visible_fraction) == pytest.approx((1.0, 0.5), abs=1e-9)
 
 
 def test_what_a_lens_folds_back_is_not_seen() -> None:

@@ -1,7 +1,8 @@
 """Everything that is exactly so in one picture.
 
 Poses are those of the middle of the exposure of the middle row. Corners are where they are seen at
-the middle of their own row's exposure, by the twin's own rays.
+the middle of their own row's exposure, by the twin's own rays, in pixels of the picture that is
+given out: a digital zoom has been through.
 """
 
 from dataclasses import dataclass
@@ -13,11 +14,10 @@ from tagmetry.geometry import Array, RigidTransform
 from tagmetry.markers import MountedMarker
 from tagmetry.twin.render.seen import SeenSheet, seen_sheets
 from tagmetry.twin.render.shot import Shot
-from tagmetry.twin.render.view import View
 from tagmetry.twin.scenes.scene import Scene
 from tagmetry.twin.scenes.thing import Thing
 from tagmetry.twin.truth.places import places_px
-from tagmetry.twin.truth.visible import visible_fraction
+from tagmetry.twin.truth.visible import Window, visible_fraction
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,12 +124,12 @@ def image_truth(scene: Scene, shot: Shot) -> ImageTruth:
     view = shot.view()
     seen = seen_sheets(scene, view, margin_px=0)
     return ImageTruth(
-        shot.camera,
+        shot.picture_camera,
         shot.time_s,
         view.T_world_thing(shot.path),
         tuple(ThingTruth(one.name, view.T_world_thing(one.path)) for one in scene.things),
         tuple(_marker(m, one, seen, shot) for one in scene.things for m in one.markers),
-        tuple(board for one in scene.things if (board := _board(one, view)) is not None),
+        tuple(board for one in scene.things if (board := _board(one, shot)) is not None),
     )
 
 
@@ -142,18 +142,35 @@ def _marker(marker: MountedMarker, thing: Thing, seen: list[SeenSheet], shot: Sh
         marker.size_m,
         thing.name,
         T_camera_marker,
-        places_px(marker.corners_m, thing.path, view),
-        visible_fraction(marker, thing, seen, view),
+        _given_out(places_px(marker.corners_m, thing.path, view), shot),
+        visible_fraction(marker, thing, seen, view, _window(shot)),
         _tilt_deg(T_camera_marker),
         _disc_px(T_camera_marker, shot),
     )
 
 
-def _board(thing: Thing, view: View) -> BoardTruth | None:
+def _board(thing: Thing, shot: Shot) -> BoardTruth | None:
     if thing.board is None:
         return None
-    corners_px = places_px(thing.board.corners_m, thing.path, view)
+    view = shot.view()
+    corners_px = _given_out(places_px(thing.board.corners_m, thing.path, view), shot)
     return BoardTruth(thing.name, view.T_camera_thing(thing.path), corners_px)
+
+
+def _given_out(sensor_px: Array, shot: Shot) -> Array:
+    """Return where pixels of the sensor are in the picture."""
+    sensor, picture = shot.camera, shot.picture_camera
+    bent = (sensor_px - sensor.center_px) / sensor.focal_px
+    return np.asarray(bent * picture.focal_px + picture.center_px)
+
+
+def _window(shot: Shot) -> Window:
+    """Return the part of the sensor that the picture shows."""
+    sensor, picture = shot.camera, shot.picture_camera
+    ends_px = np.array([[-0.5, -0.5], [picture.width_px - 0.5, picture.height_px - 0.5]])
+    bent = (ends_px - picture.center_px) / picture.focal_px
+    (left, top), (right, bottom) = bent * sensor.focal_px + sensor.center_px
+    return Window(float(left), float(top), float(right), float(bottom))
 
 
 def _tilt_deg(T_camera_marker: RigidTransform) -> float:

@@ -40,8 +40,7 @@ def places_px(p_thing: Array, thing: Path, view: View) -> Array:
         rows_px = rows_px + late_px
         if np.abs(late_px).max(initial=0.0) < _SETTLED_PX:
             return places
-    lost = np.asarray(np.abs(late_px) > _LOST_PX)
-    places[lost] = np.nan
+    places[np.flatnonzero(np.abs(late_px) > _LOST_PX)] = np.nan
     return places
 
 
@@ -55,9 +54,10 @@ def _seen(p_camera: Array, view: View) -> Array:
     """Return the pixels that show points, NaN for those behind the camera or past the lens."""
     rays = Rays(view.camera)
     pixels = rays.see(p_camera)
-    finite = np.isfinite(pixels).all(axis=-1)
+    finite = np.asarray(np.isfinite(pixels).all(axis=-1))
     looked = rays.look(*np.where(finite[:, None], pixels, view.camera.center_px).T)
-    return np.where((finite & _along(looked, p_camera))[:, None], pixels, np.nan)
+    shown = np.asarray(finite & _along(looked, p_camera))
+    return np.where(shown[:, None], pixels, np.nan)
 
 
 def _along(rays: Array, p_camera: Array) -> BoolArray:

@@ -7,6 +7,8 @@ quadrilateral, which is cut by the marker's square. What hides it are the sheets
 a pixel that several edges cross, their shares are taken to be independent.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from tagmetry.geometry import Array, RigidTransform
@@ -25,8 +27,17 @@ _ROWS_LOOKED_AT = 9
 _FLAT = 1e-9
 
 
+class Window(NamedTuple):
+    """The part of a sensor that the picture shows, pixels; a pixel reaches from -1/2 to 1/2."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+
 def visible_fraction(
-    marker: MountedMarker, thing: Thing, seen: list[SeenSheet], view: View
+    marker: MountedMarker, thing: Thing, seen: list[SeenSheet], view: View, window: Window
 ) -> float:
     """Return the share of a marker's black square that a picture shows, 0 to 1.
 
@@ -35,6 +46,7 @@ def visible_fraction(
         thing: What the marker is on.
         seen: The sheets that the camera sees, what is painted first first, within the image.
         view: Who sees it, at the middle of the exposure.
+        window: What the picture shows of the sensor.
     """
     own = _number_of(_sheet_under(marker, thing), seen)
     if own is None:
@@ -48,11 +60,11 @@ def visible_fraction(
     side_px = max(box.right - box.left, box.bottom - box.top)
     fine = int(np.clip(np.ceil(_POINTS_ALONG / side_px), 1, _FINEST))
     grid = Grid(view.camera, box, fine)
-    shown = _areas(marker, thing, grid, view)
+    shown = _areas(marker, thing, grid, view) * _within(window, grid)
     for nearer in seen[own + 1 :]:
         if part := nearer.box & box:
-            window = shown[part.inside(box, fine)]
-            window *= 1 - _cover(nearer, Grid(view.camera, part, fine), view)
+            piece = shown[part.inside(box, fine)]
+            piece *= 1 - _cover(nearer, Grid(view.camera, part, fine), view)
     return float(np.clip(shown.sum(), 0.0, 1.0))
 
 
@@ -69,6 +81,16 @@ def _footprints(x: Array, y: Array) -> Array:
     across = (x[1:, 1:] - x[:-1, :-1]) * (y[1:, :-1] - y[:-1, 1:])
     back = (x[1:, :-1] - x[:-1, 1:]) * (y[1:, 1:] - y[:-1, :-1])
     return np.asarray(np.abs(across - back) / 2)
+
+
+def _within(window: Window, grid: Grid) -> Array:
+    """Return the share of every point of a grid that lies in a window."""
+    rows, columns = grid.shape
+    v_px = grid.box.top - 0.5 + np.arange(rows + 1) / grid.fine
+    u_px = grid.box.left - 0.5 + np.arange(columns + 1) / grid.fine
+    down = np.diff(np.clip(v_px, window.top, window.bottom))
+    across = np.diff(np.clip(u_px, window.left, window.right))
+    return np.asarray(np.outer(down, across) * grid.fine**2)
 
 
 def _cover(one: SeenSheet, grid: Grid, view: View) -> Array:
