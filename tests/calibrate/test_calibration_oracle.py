@@ -68,7 +68,7 @@ def test_opencvs_fisheye_has_the_same_minimum() -> None:
     points = [view.p_board[None] for view in views]
     pixels = [view.corners_px[None] for view in views]
     flags = cv2.CALIB_RECOMPUTE_EXTRINSIC | cv2.CALIB_FIX_SKEW
-    rms, K, D, _, _ = cv2.fisheye.calibrate(
+    rms, K, _, _, _ = cv2.fisheye.calibrate(
         points, pixels, views[0].size_px, None, None, flags=flags, criteria=STOP
     )
     assert found.rms_px == pytest.approx(rms, rel=1e-4)
@@ -152,3 +152,15 @@ def test_the_boards_frame_is_the_makers(real_views: list[BoardView]) -> None:
     assert found.shape_released
     assert np.abs(moved_m.mean(axis=0)).max() < 5e-5
     assert 1e-5 < np.abs(moved_m).max() < 1e-3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("camera", "lens"),
+    [(truth(70, ()), "none"), (USUAL, "brown5"), (RATIONAL, "brown8"), (FISHEYE, "fisheye")],
+    ids=["pinhole", "usual", "rational", "fisheye"],
+)
+def test_the_lens_that_made_the_corners_is_chosen(camera: Truth, lens: str) -> None:
+    found = calibrate(seen(camera, 15, np.random.default_rng(0)))
+    assert found.choice.chosen == lens
+    assert found.camera.focal_px[0] == pytest.approx(camera.K[0, 0], rel=2e-3)

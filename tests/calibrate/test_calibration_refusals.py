@@ -26,6 +26,10 @@ def only(view: BoardView, chosen: np.ndarray) -> BoardView:
     )
 
 
+def moved(view: BoardView, right_px: float) -> BoardView:
+    return replace(view, corners_px=view.corners_px + np.array([right_px, 0.0]))
+
+
 def mirrored(view: BoardView) -> BoardView:
     rows = np.arange(54).reshape(6, 9)[:, ::-1].ravel()
     return replace(view, corners_px=view.corners_px[rows])
@@ -38,7 +42,7 @@ def test_few_views(count: int) -> None:
 
 
 def test_names_that_do_not_exist() -> None:
-    with pytest.raises(InputError, match="expected a lens of none, brown1.* or auto, got 'plumb'"):
+    with pytest.raises(InputError, match=r"expected a lens of none, brown1.* or auto, got 'plumb'"):
         calibrate(some(3), "plumb")
     with pytest.raises(InputError, match="expected a shape of flat or free, got 'bent'"):
         calibrate(some(3), "brown4", shape="bent")
@@ -46,7 +50,7 @@ def test_names_that_do_not_exist() -> None:
 
 def test_mixed_sizes() -> None:
     views = some()
-    with pytest.raises(InputError, match="pictures of one size, got 1280x960 .* and 2000x960"):
+    with pytest.raises(InputError, match=r"pictures of one size, got 1280x960 .* and 2000x960"):
         calibrate([*views[:3], replace(views[3], width_px=2000)], "brown4")
 
 
@@ -77,7 +81,7 @@ def test_all_mirrored() -> None:
 def test_rows_and_columns_swapped() -> None:
     k = np.arange(54)
     points = np.stack([k % 6 - 2.5, 4 - k // 6, 0.0 * k], axis=1) * 0.025
-    with pytest.raises(InputError, match="that can be used|no camera shows the board"):
+    with pytest.raises(InputError, match=r"that can be used|no camera shows the board"):
         calibrate([replace(v, p_board=points) for v in some(8)], "brown5")
 
 
@@ -88,7 +92,7 @@ def test_rows_and_columns_swapped() -> None:
         (lambda v: only(v, np.arange(9)), "one line of the board"),
         (lambda v: only(v, np.array([3, 3, *range(10, 30)])), "a point is there twice"),
         (lambda v: replace(v, corners_px=v.corners_px * [1, 0] + [0, 50]), "edge on"),
-        (lambda v: replace(v, corners_px=v.corners_px + [2000, 0]), "outside of its 1280x960"),
+        (lambda v: moved(v, 2000.0), "outside of its 1280x960"),
         (mirrored, "mirrored"),
     ],
     ids=["few", "line", "twice", "edge on", "outside", "mirrored"],
@@ -148,8 +152,7 @@ def refused_or_sane(views: list[BoardView], lens: str) -> bool:
     try:
         found = calibrate(views, lens)
     except InputError as error:
-        assert "\n" not in str(error)
-        return True
+        return "\n" not in str(error)
     numbers = [*found.camera.focal_px, *found.camera.center_px, *found.camera.lens.coefficients]
     assert np.isfinite(numbers).all()
     assert np.isfinite(found.camera.covariance).all()

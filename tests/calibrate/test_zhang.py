@@ -11,6 +11,7 @@ from tagmetry.calibrate.freedom import Wanted
 from tagmetry.calibrate.homographies import fit_homographies
 from tagmetry.calibrate.sightings import gather
 from tagmetry.calibrate.start import bent, straightened
+from tagmetry.calibrate.translate import as_rational
 from tagmetry.calibrate.zhang import (
     closed_form,
     focal_lengths,
@@ -91,3 +92,10 @@ def test_two_wrong_corners_in_every_view_do_not_lead_the_start_astray() -> None:
         view.corners_px[[3, 40]] += 60.0
     found = begin(gather(views), Wanted("brown5"))
     np.testing.assert_allclose(found.intrinsics[:2], USUAL.intrinsics[:2], rtol=0.02)
+
+
+def test_a_fisheye_translates_to_a_rational_lens() -> None:
+    intrinsics = np.array([488.0, 489.0, 635.7, 486.1, 0.02, -0.01, 0.003, -0.001])
+    fisheye = Bundle("fisheye", intrinsics, *poses(), board_points())
+    brown = as_rational(fisheye, 8, np.radians(60))
+    np.testing.assert_allclose(brown.predict(), fisheye.predict(), atol=0.2)

@@ -18,6 +18,7 @@ from tagmetry.calibrate.fit import Fit, begin, fit_flat, refit
 from tagmetry.calibrate.freedom import Wanted
 from tagmetry.calibrate.hold_out import hold_out_px
 from tagmetry.calibrate.sightings import Sightings
+from tagmetry.calibrate.translate import as_rational
 from tagmetry.camera import distortion_reach
 from tagmetry.errors import InputError
 
@@ -84,12 +85,27 @@ def _refitted(general: Fit, fits: dict[LensName, Fit], kind: Wanted) -> Fit:
     """Return the best fit of one lens from the starts there are; larger lenses from smaller."""
     before = [fit.bundle for fit in fits.values() if fit.bundle.kind == kind.kind]
     starts = before[-1:] if kind.coefficients > 5 else []
-    if general.bundle.kind != kind.kind:
+    if kind.coefficients >= 8 and general.bundle.kind == "fisheye":
+        starts = [as_rational(general.bundle, kind.coefficients, _farthest_rad(general))]
+    elif general.bundle.kind != kind.kind:
         starts = [*starts, begin(general.seen, kind)]
     elif not starts:
         starts = [general.bundle]
-    fitted = [refit(s, general.seen, kind, robust=False, steps=_MOST_STEPS) for s in starts]
+    fitted = []
+    for start in starts:
+        try:
+            fitted.append(refit(start, general.seen, kind, robust=False, steps=_MOST_STEPS))
+        except InputError as error:
+            refusal = error
+    if not fitted:
+        raise refusal
     return min(fitted, key=lambda fit: fit.scale)
+
+
+def _farthest_rad(fit: Fit) -> float:
+    """Return the largest angle from the axis at which a corner lies."""
+    rays = fit.bundle.camera(fit.seen.size_px).unproject(fit.seen.corners_px[fit.seen.used])
+    return float(np.arccos(np.clip(np.nanmin(rays[:, 2]), -1.0, 1.0)))
 
 
 def _row(name: LensName, fit: Fit) -> ModelRow:
