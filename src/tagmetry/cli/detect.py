@@ -24,7 +24,8 @@ def detect(  # noqa: PLR0913 (each argument is an option)
         list[str],
         typer.Argument(
             metavar="SOURCE...",
-            help="Picture, folder, glob, video, camera number, /dev/video0, rtsp:// or http://.",
+            help="Picture, folder, glob, video, camera number, /dev/video0, rtsp://, http://, or a "
+            "simulated camera: twin:webcam, twin:overhead, twin:mono.",
         ),
     ],
     family: Families = ["tag36h11"],  # noqa: B006 (Typer copies it)
@@ -69,7 +70,7 @@ def detect(  # noqa: PLR0913 (each argument is an option)
     )
     if out == "-":
         json, out = True, None
-    if _lacks_poses(task, out):
+    if _lacks_poses(task, out, sources):
         typer.echo("tagmetry: no poses: they need both --size and --camera", err=True)
     with ExitStack() as stack:
         takers = _Takers(stack, _results_writer(out, marker), overlay, cube, task)
@@ -133,9 +134,13 @@ def _measured(
     return task.result(image, findings.detections), findings.rejections
 
 
-def _lacks_poses(task: "Measurement", out: str | None) -> bool:
+def _lacks_poses(task: "Measurement", out: str | None, sources: list[str]) -> bool:
     """Say whether poses are wanted and cannot be had."""
+    from tagmetry.pipeline import tells_camera
+
     given = (task.sizes_m is not None) + (task.camera is not None)
+    if task.sizes_m is not None and all(tells_camera(spec) for spec in sources):
+        return False
     return given == 1 or (given == 0 and out is not None and out.lower().endswith(".tum"))
 
 
@@ -158,11 +163,11 @@ def _images(sources: list[str], task: "Measurement") -> Generator["Image"]:
     """Give the images of all sources one after another, numbered through."""
     from tagmetry.cli.live_state import StateTeller
     from tagmetry.cli.progress import progress
-    from tagmetry.sources import open_source
+    from tagmetry.pipeline import open_images
 
     count = 0
     for spec in sources:
-        with open_source(spec, camera=task.camera, on_state=StateTeller(spec)) as source:
+        with open_images(spec, camera=task.camera, on_state=StateTeller(spec)) as source:
             first = count
             for image in progress(source):
                 yield replace(image, sequence=first + image.sequence)

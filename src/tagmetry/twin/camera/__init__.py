@@ -6,6 +6,7 @@ from tagmetry.twin.camera.dials import TwinControls
 from tagmetry.twin.camera.faults import Faults
 from tagmetry.twin.camera.focus_law import DioptreFocus, FixedFocus, FocusLaw, LogFocus
 from tagmetry.twin.camera.models import mono_camera, overhead_camera, webcam
+from tagmetry.twin.camera.ready import marker_before_camera, ready_camera
 from tagmetry.twin.camera.setting import Setting
 
 __all__ = [
@@ -19,7 +20,9 @@ __all__ = [
     "Setting",
     "TwinCamera",
     "TwinControls",
+    "marker_before_camera",
     "mono_camera",
     "overhead_camera",
+    "ready_camera",
     "webcam",
 ]
