@@ -1,6 +1,6 @@
 """A series of pictures: a scene, who photographs it, and when."""
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
@@ -72,7 +72,7 @@ class Picture:
     truth: ImageTruth
 
 
-def pictures(recipe: Recipe, jobs: int = 1) -> Iterator[Picture]:
+def pictures(recipe: Recipe, jobs: int = 1) -> Generator[Picture]:
     """Give the pictures of a series in order; each is the same for any number of jobs.
 
     Args:
