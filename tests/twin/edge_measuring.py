@@ -87,7 +87,12 @@ def crossing(one: Edge, other: Edge) -> Array:
 
 
 def outline_corners(
-    picture: Array, sides_px: list[Array], degree: int = 1, s_px: float = 0.0, extra_px: float = 0.0
+    picture: Array,
+    sides_px: list[Array],
+    degree: int = 1,
+    s_px: float = 0.0,
+    extra_px: float = 0.0,
+    beside_px: list[Array] | None = None,
 ) -> Array:
     """Return the corners of a closed outline, shape (n, 2).
 
@@ -96,11 +101,12 @@ def outline_corners(
         sides_px: Nominal points along each side, in order round it.
         degree: Of the polynomials that the sides are.
         s_px: Standard deviation of the point spread.
-        extra_px: What light is carried besides, by motion or defocus.
+        extra_px: How far light is carried besides, by motion or defocus.
+        beside_px: Points along what else there is, that must not come into a window.
     """
     edges = []
     for i, side in enumerate(sides_px):
-        others = np.concatenate([other for k, other in enumerate(sides_px) if k != i])
+        others = np.concatenate([*sides_px[:i], *sides_px[i + 1 :], *(beside_px or [])])
         edges.append(measured_edge(picture, side, others, clear_px(s_px) + extra_px, degree, s_px))
     return np.array([crossing(edges[i - 1], edges[i]) for i in range(len(edges))])
 
