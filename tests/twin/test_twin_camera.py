@@ -239,6 +239,17 @@ def test_zoomed_edges_are_where_similar_triangles_put_them(zoom: int) -> None:
     np.testing.assert_allclose(twin.true_camera().project(corners_m)[:, 0], expected_px, atol=1e-9)
 
 
+def test_zoom_of_pixels_that_are_read_two_by_two() -> None:
+    """At 150 % a quarter of the sensor's size takes 2 x 2 as one, and shrinks them by 3 / 4."""
+    lens = ThinLens(F_M, 0.0, PIXEL_M)
+    device = replace(PLAIN, lens=lens, breathing=Breathing(0.0), size_px=(160, 90))
+    twin = camera(white_square(0.5, 0.03), device)
+    twin.controls.write("zoom", 150)
+    sensor_px = 2000 * np.array([-0.015, 0.015]) / 0.5 + 311.7
+    expected_px = 1.5 / 4 * (sensor_px - 319.5) + 79.5
+    np.testing.assert_allclose(step_edges_px(picture(twin)), expected_px, atol=0.01)
+
+
 @pytest.mark.parametrize("focus", [0.5, 2.0, 5.0, 12.0, 19.0])
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 def test_nearer_focus_magnifies_as_the_lens_moves_out(focus: float, share: float) -> None:
