@@ -1,5 +1,6 @@
 """What there is to see: things made of printed sheets, light, and paths through them."""
 
+from tagmetry.twin.scenes.held import Held
 from tagmetry.twin.scenes.light import Lamp, Light
 from tagmetry.twin.scenes.path import Path, Steady, Still, Waypoints, looking
 from tagmetry.twin.scenes.scene import Scene
@@ -16,6 +17,7 @@ from tagmetry.twin.scenes.thing import (
 
 __all__ = [
     "Dot",
+    "Held",
     "Lamp",
     "Light",
     "Path",

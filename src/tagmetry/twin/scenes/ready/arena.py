@@ -6,6 +6,7 @@ import numpy as np
 
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform
+from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import MountedMarker
 from tagmetry.markers import family as family_of
 from tagmetry.twin.recipe import Recipe
@@ -58,10 +59,16 @@ def arena(
         marker_thing(_corners(family), Still(ground), name="corners"),
         *(_robot(number, family, size_m, way) for number, way in enumerate(ways)),
     )
-    above = looking(np.array([0.05, -0.04, height_m]), np.array([0.0, 0.0, 0.0]))
-    light = Light(0.8, (Lamp(np.array([-1.0, 0.6, 2.5]), 1.1), Lamp(np.array([1.2, -0.5, 2.5]), 1)))
-    shot = machine_camera(Still(above), _FIELD_OF_VIEW_DEG)
+    above = _hung(height_m)
+    light = Light(0.6, (Lamp(np.array([-1.2, 0.6, 3.5]), 3.0), Lamp(np.array([1.3, -0.5, 3.5]), 3.0)))
+    shot = machine_camera(Still(above), _FIELD_OF_VIEW_DEG, brightness=1.0)
     return Recipe(Scene(things, light), shot, images, seed=seed)
+
+
+def _hung(height_m: float) -> RigidTransform:
+    """Return T_world_camera of a camera that was hung not quite straight; x is to the right."""
+    down = looking(np.array([0.05, -0.04, height_m]), np.array([0.05, -0.04, 0.0]))
+    return down * RigidTransform.from_rotation(Rotation.from_rotvec([0.012, 0.018, -0.01]))
 
 
 def _places(robots: int) -> tuple[Array, float]:
