@@ -113,14 +113,15 @@ def distances_m(camera: Camera, board: Board, limits: HoldingLimits) -> tuple[fl
 def _grid(camera: Camera, distances: Sequence[float], largest_tilt_deg: float) -> list[Place]:
     u = np.linspace(0.1, 0.9, _COLUMNS) * (camera.width_px - 1)
     v = np.linspace(0.1, 0.9, _ROWS) * (camera.height_px - 1)
+    pixels = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
+    shown = pixels[np.isfinite(camera.unproject(pixels)).all(axis=1)]
     tilts = [(0.0, 0.0)]
     tilts += [(s * largest_tilt_deg, d) for s in _TILT_SHARES[1:] for d in _DIRECTIONS_DEG]
     return [
         Place((float(x), float(y)), distance, tilt, direction)
         for distance in distances
         for tilt, direction in tilts
-        for x in u
-        for y in v
+        for x, y in shown
     ]
 
 

@@ -8,8 +8,8 @@ from tagmetry.calibrate.result import Calibration
 from tagmetry.camera import distortion_reach
 from tagmetry.geometry.arrays import IntArray
 
+FEW_VIEWS = 8
 _UNCERTAIN_PX = 1.0
-_FEW_VIEWS = 8
 _LOOSE_FOCAL = 0.005
 _SIGNIFICANT = 2.0  # standard deviations
 _TOO_SMALL = 1.5  # times the formula's standard deviation
@@ -72,11 +72,11 @@ def _shown_there(evidence: Evidence) -> str:
 
 def _few_views(calibration: Calibration) -> str | None:
     count = len(calibration.views)
-    if count >= _FEW_VIEWS:
+    if count >= FEW_VIEWS:
         return None
     return (
         f"{count} views are few: their error of {calibration.rms_px:.2f} px says nothing, for it "
-        f"is smallest with the fewest views; take at least {_FEW_VIEWS}"
+        f"is smallest with the fewest views; take at least {FEW_VIEWS}"
     )
 
 

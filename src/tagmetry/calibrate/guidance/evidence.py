@@ -83,8 +83,6 @@ def _near_corners(camera: Camera) -> Array:
 
 def _pose(calibration: Calibration, size_m: float, place: Place) -> PoseError | None:
     """Return the pose's error, None where the lens shows no whole marker."""
-    if not np.isfinite(calibration.camera.unproject(np.array(place.pixel))).all():
-        return None
     try:
         return pose_error(calibration, size_m, [place])[0]
     except InputError:

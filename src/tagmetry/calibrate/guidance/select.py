@@ -11,6 +11,7 @@ submodular set functions, 1978; A. Krause et al., Near-optimal sensor placements
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -23,14 +24,17 @@ from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 
 _FIRST = 12  # views for a camera to begin with
+_APART_SHARE = 0.02  # of the image's diagonal: nearer than that, views are nearly the same
 
 
 def most_informative(views: Sequence[BoardView], count: int) -> tuple[int, ...]:
     """Return which views to calibrate with, the most informative first.
 
+    Views that are nearly the same as one that is chosen are left out: they share its errors.
+
     Args:
         views: Of one board, in pictures of one size.
-        count: How many are wanted; all views where there are fewer.
+        count: How many are wanted; fewer are given where there are no more different ones.
 
     Raises:
         InputError: No views, fewer than one wanted, or views of several sizes.
@@ -40,8 +44,15 @@ def most_informative(views: Sequence[BoardView], count: int) -> tuple[int, ...]:
     known = _first_knowledge(views)
     seen = gather(views)
     told = known.of_views(bundle_of(known.camera, seen), seen)
-    usable = [int(i) for i in np.flatnonzero(np.isfinite(told).all(axis=(1, 2)))]
-    return tuple(_greedily(known, told, usable, min(count, len(usable))))
+    left = [int(i) for i in np.flatnonzero(np.isfinite(told).all(axis=(1, 2)))]
+    least_px = _APART_SHARE * float(np.hypot(*seen.size_px))
+    chosen: list[int] = []
+    while left and len(chosen) < count:
+        best = _best(known, told, left)
+        known = replace(known, information=known.information + told[best])
+        chosen.append(best)
+        left = [i for i in left if _apart(views[i], views[best]) >= least_px]
+    return tuple(chosen)
 
 
 def far_apart(views: Sequence[BoardView], count: int) -> list[int]:
@@ -76,16 +87,11 @@ def _carried(rough: Knowledge, solved: Knowledge) -> Array:
     return np.asarray(to_rough.T @ rough.information @ to_rough)
 
 
-def _greedily(known: Knowledge, told: Array, left: list[int], count: int) -> list[int]:
-    """Return the views after which the mean variance over the image is least, one by one."""
+def _best(known: Knowledge, told: Array, left: list[int]) -> int:
+    """Return the view after which the mean variance over the image is least."""
     spread = np.einsum("gim,gik->mk", known.to_pixels, known.to_pixels)
-    information, chosen = known.information, []
-    for _ in range(count):
-        after = np.linalg.inv(information + told[left])
-        best = left.pop(int(np.argmin(np.einsum("nmk,km->n", after, spread))))
-        information = information + told[best]
-        chosen.append(best)
-    return chosen
+    after = np.linalg.inv(known.information + told[left])
+    return left[int(np.argmin(np.einsum("nmk,km->n", after, spread)))]
 
 
 def _apart(view: BoardView, other: BoardView) -> float:

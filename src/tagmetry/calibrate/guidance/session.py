@@ -26,7 +26,7 @@ from tagmetry.markers import Board
 _COVERAGE = (8, 6)
 _GRID = (9, 7)
 _FEW = 3  # views; fewer make no calibration
-_LITTLE = 0.03  # share by which a view must lower the uncertainty to be worth its while
+_LITTLE = 0.01  # share by which a view must lower the uncertainty to be worth its while
 _PATIENCE = 5
 
 Solver = Callable[[Sequence[BoardView]], Calibration]

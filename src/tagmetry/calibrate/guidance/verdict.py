@@ -10,12 +10,13 @@ from typing import Literal
 import numpy as np
 
 from tagmetry.calibrate.guidance.candidates import HoldingLimits
-from tagmetry.calibrate.guidance.doubts import doubts
+from tagmetry.calibrate.guidance.doubts import FEW_VIEWS, doubts
 from tagmetry.calibrate.guidance.evidence import Evidence, measure
 from tagmetry.calibrate.guidance.knowledge import Knowledge
 from tagmetry.calibrate.guidance.next_view import NextView, next_view
 from tagmetry.calibrate.guidance.words import where
 from tagmetry.calibrate.quality.pose_error import PoseError
+from tagmetry.calibrate.quality.projection import ProjectionUncertainty
 from tagmetry.calibrate.result import Calibration
 from tagmetry.markers import Board
 
@@ -31,7 +32,7 @@ class Verdict:
 
     Attributes:
         words: The whole of it in a few sentences.
-        grade: "good": within 0.5 px everywhere on the image; "usable": within 1 px on half of it;
+        grade: "good": within 0.5 px everywhere on the image, by eight views or more; "usable": within 1 px on half of it;
             "poor": neither.
         fit_for: What it can be used for, each with the number that says so.
         warnings: What is weak and why, the worst first; they contain what the calibration warns of.
@@ -68,25 +69,29 @@ def verdict(
         InputError: The calibration has no covariance; no place shows enough of the board.
     """
     evidence = evidence or measure(calibration, size_m)
-    grade = _grade(evidence)
+    grade = _grade(evidence, len(calibration.views))
     fit_for, weak = _fit_for(evidence), doubts(calibration, evidence)
     added = _next_view(calibration, board, limits) if board else None
     words = _words(calibration, evidence, grade, weak, added)
     return Verdict(words, grade, fit_for, weak, added, evidence)
 
 
-def _grade(evidence: Evidence) -> Grade:
+def _grade(evidence: Evidence, views: int) -> Grade:
     uncertainty = evidence.uncertainty
-    if uncertainty.worst_px <= _GOOD_PX and uncertainty.unshown_share == 0:
+    if _is_good_everywhere(uncertainty) and views >= FEW_VIEWS:
         return "good"
     return "usable" if uncertainty.middle_px <= _USABLE_PX else "poor"
+
+
+def _is_good_everywhere(uncertainty: ProjectionUncertainty) -> bool:
+    return uncertainty.worst_px <= _GOOD_PX and uncertainty.unshown_share == 0
 
 
 def _fit_for(evidence: Evidence) -> tuple[str, ...]:
     """Return uses, each with its number."""
     uncertainty, found = evidence.uncertainty, []
     share = float((np.nan_to_num(uncertainty.sd_px, nan=np.inf) <= _GOOD_PX).mean())
-    if uncertainty.worst_px <= _GOOD_PX and uncertainty.unshown_share == 0:
+    if _is_good_everywhere(uncertainty):
         found.append(
             "measuring anywhere on the image, and straightening it: projections are within "
             f"{uncertainty.worst_px:.2f} px (one standard deviation) at the worst place"

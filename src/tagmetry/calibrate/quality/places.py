@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tagmetry.camera import Camera
+from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 
@@ -32,10 +33,17 @@ class Place:
 
 
 def poses_at(camera: Camera, places: Sequence[Place]) -> RigidTransform:
-    """Return Ts_camera_target at n places; NaN translations where the lens shows nothing."""
+    """Return Ts_camera_target at n places.
+
+    Raises:
+        InputError: The lens shows nothing at one of them.
+    """
     rays = camera.unproject(np.array([place.pixel for place in places]))
-    shown = np.isfinite(rays).all(axis=1, keepdims=True)
-    upright = Rotation.from_matrix(_facing(np.where(shown, rays, [0.0, 0.0, 1.0])))
+    shown = np.isfinite(rays).all(axis=1)
+    if not shown.all():
+        dark = places[int(np.argmin(shown))].pixel
+        raise InputError(f"the lens shows nothing at pixel {dark}; choose a place that it shows")
+    upright = Rotation.from_matrix(_facing(rays))
     side = np.radians([place.direction_deg for place in places])
     angle = np.radians([place.tilt_deg for place in places])
     axes_target = np.stack([np.sin(side), np.cos(side), np.zeros_like(side)], axis=1)

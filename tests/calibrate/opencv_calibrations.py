@@ -25,7 +25,7 @@ def data_folder() -> Path:
     """Return the folder of the 13 pictures; skips where it is missing."""
     import os
 
-    root = Path(os.environ.get("TAGMETRY_DATA", Path(__file__).parents[4] / "shared" / "data"))
+    root = Path(os.environ.get("TAGMETRY_DATA", Path(__file__).parents[3] / "shared" / "data"))
     if not (root / PICTURES).exists():
         pytest.skip(f"no {PICTURES} in {root}; TAGMETRY_DATA names the folder")
     return root / PICTURES
