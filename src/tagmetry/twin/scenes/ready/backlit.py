@@ -91,7 +91,7 @@ def _hdr_camera(path: Path, glow: float) -> Shot:
         path,
         optics=Optics(0.9, vignetting=Vignetting(0.7), veil=_VEIL / 3),
         sensor=Sensor(
-            full_well_e=20_000, read_noise_e=12, response=Hdr(float(np.log2(1.2 * glow)), 0.15)
+            full_well_e=20_000, read_noise_e=12, response=Hdr(float(np.log2(2 * glow)), 0.15)
         ),
-        brightness=1.0,
+        brightness=1.6,
     )
