@@ -91,15 +91,13 @@ def test_in_a_room_no_ray_gets_out(lens: FisheyeLens | None) -> None:
     seen = picture(*walls, camera=seer)
     through = 1 - seen / 0.6
     assert np.median(through) == pytest.approx(0.0, abs=1e-6)
-    # Two walls that each cover half of a pixel leave a quarter of it open: 1/4 at most, in a seam.
-    assert through.max() <= 0.26
-    assert through.mean() < 0.004
+    assert through.max() < 0.002  # nothing shows where walls meet
 
 
-def test_abutting_sheets_in_a_plane_show_no_more_than_a_quarter_between_them() -> None:
+def test_nothing_shows_between_abutting_sheets() -> None:
     left, right = (sheet(placed(x, 0, 1), 0.2, 0.5, paper=0.6) for x in (-0.1, 0.1))
     through = 1 - picture(left, right)[60:140, 100:140] / 0.6
-    assert through.max() <= 0.251
+    assert through.max() < 1e-5
 
 
 def test_a_sheet_almost_from_the_side_is_as_wide_as_its_projection() -> None:

@@ -1,6 +1,6 @@
 """The light on the sensor: what the pixels of a picture take in.
 
-    light = mean over the exposure of (the nearer sheets over the farther ones, spread)
+    light = mean over the exposure of (the farther sheets behind the nearer ones, spread)
 
 The image is made tile by tile, so that a large picture needs little memory and an empty one no
 time. Without a lens that defocuses, all sheets are laid over each other on the fine grid and spread
@@ -14,6 +14,7 @@ import numpy as np
 
 from tagmetry.geometry.arrays import FloatImage
 from tagmetry.twin.render.box import Box, tiles
+from tagmetry.twin.render.canvas import Canvas
 from tagmetry.twin.render.fineness import fine_of, gaussian_reach_px
 from tagmetry.twin.render.grid import Grid
 from tagmetry.twin.render.layered import layered
@@ -22,7 +23,8 @@ from tagmetry.twin.render.moments import Moment, moments
 from tagmetry.twin.render.paint import painted
 from tagmetry.twin.render.shot import Shot
 from tagmetry.twin.scenes.scene import Scene
-from tagmetry.twin.spread import Spread, pixel_means, spread
+from tagmetry.twin.spread import Spread
+from tagmetry.twin.spread_pixels import spread_pixels
 from tagmetry.twin.vignetting import vignetted
 
 _TILE_PX = 192
@@ -55,23 +57,23 @@ def _together(
     wide = region.grown(reach_px)
     some = [one for moment in during[:: len(during) // _LOOKED_AT + 1] for one in moment.seen]
     grid = Grid(shot.camera, wide, fine_of(shot, moved_px(some, wide, shot.camera)))
-    canvas = np.zeros(grid.shape, np.float32)
+    total = np.zeros(grid.shape, np.float32)
     for moment in during:
-        canvas += _canvas(grid, moment, scene) / np.float32(len(during))
-    done = pixel_means(spread(canvas, grid.fine, Spread(shot.optics.blur_px)), grid.fine)
+        total += _sheets_on(grid, moment, scene)
+    total /= np.float32(len(during))
+    done = spread_pixels(total, grid.fine, Spread(shot.optics.blur_px))
     light[region.pixels] = done[region.inside(grid.box)]
 
 
-def _canvas(grid: Grid, moment: Moment, scene: Scene) -> FloatImage:
-    """Return the sheets over each other on a grid, at a moment."""
-    canvas = np.full(grid.shape, scene.background, np.float32)
-    for one in moment.seen:
-        if box := one.box & grid.box:
-            patch = painted(one, box, grid, moment.view, scene.light)
-            window = canvas[box.inside(grid.box, grid.fine)]
-            window *= 1 - patch.share
-            window += patch.radiance
-    return canvas
+def _sheets_on(grid: Grid, moment: Moment, scene: Scene) -> FloatImage:
+    """Return the light of the sheets on a grid, at a moment."""
+    canvas = Canvas.empty(grid.shape)
+    for one in reversed(moment.seen):
+        box = one.box & grid.box
+        window = box.inside(grid.box, grid.fine)
+        if box and canvas.has_room(window):
+            canvas.lay_behind(painted(one, box, grid, moment.view, scene.light), window)
+    return canvas.before(scene.background)
 
 
 def _around(one: Box, other: Box) -> Box:

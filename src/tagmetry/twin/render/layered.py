@@ -1,4 +1,4 @@
-"""Sheets out of focus: each is spread by its own depth, then laid over what is behind it.
+"""Sheets out of focus: each is spread by its own depth, then laid behind the nearer ones.
 
 Light and cover of a sheet are spread alike, so that a blurred edge is half transparent, as it is
 where the lens looks past it.
@@ -12,6 +12,7 @@ from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import FloatImage
 from tagmetry.twin.defocus import spread_by_depth
 from tagmetry.twin.render.box import Box
+from tagmetry.twin.render.canvas import Canvas, Patch
 from tagmetry.twin.render.fineness import LARGEST_DISC_PX, fine_of, gaussian_reach_px
 from tagmetry.twin.render.grid import Grid
 from tagmetry.twin.render.lean import moved_px
@@ -33,34 +34,33 @@ def layered(
     window = light[tile.pixels]
     total = np.zeros_like(window)
     for moment in during:
-        canvas = np.full_like(window, scene.background)
-        for one in moment.seen:
-            _lay(canvas, tile, one, moment.view, scene, shot)
-        total += canvas
+        canvas = Canvas.empty(window.shape)
+        for one in reversed(moment.seen):
+            _lay_behind(canvas, tile, one, moment.view, scene, shot)
+        total += canvas.before(scene.background)
     window[:] = total / len(during)
 
 
-def _lay(
-    canvas: FloatImage, tile: Box, one: SeenSheet, view: View, scene: Scene, shot: Shot
+def _lay_behind(
+    canvas: Canvas, tile: Box, one: SeenSheet, view: View, scene: Scene, shot: Shot
 ) -> None:
-    """Lay a sheet, spread, over what a tile shows already."""
+    """Lay a sheet, spread, behind what a tile shows already."""
     reach_px = gaussian_reach_px(shot.optics) + int(np.ceil(_discs_px(one, shot).max()))
     box = tile & one.box.grown(reach_px)
-    if not box:
+    window = box.inside(tile)
+    if not (box and canvas.has_room(window)):
         return
     wide = box.grown(reach_px)
     grid = Grid(shot.camera, wide, fine_of(shot, moved_px([one], wide, shot.camera)))
     patch = painted(one, grid.box, grid, view, scene.light)
     discs_px = _discs_over_px(one, grid, shot)
     blur_px = shot.optics.blur_px
-    share, radiance = (
+    radiance, share = (
         pixel_means(spread_by_depth(part, grid.fine, discs_px, blur_px), grid.fine)
-        for part in (patch.share, patch.radiance)
+        for part in (patch.radiance, patch.share)
     )
     inner = box.inside(grid.box)
-    window = canvas[box.inside(tile)]
-    window *= 1 - share[inner]
-    window += radiance[inner]
+    canvas.lay_behind(Patch(radiance[inner], share[inner]), window)
 
 
 def _discs_px(one: SeenSheet, shot: Shot) -> Array:

@@ -4,13 +4,11 @@ A point of the grid is the mean of what its footprint shows (`coverage`, `dots`)
 its row sees.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from tagmetry.geometry import Array, RigidTransform
-from tagmetry.geometry.arrays import FloatImage
 from tagmetry.twin.render.box import Box
+from tagmetry.twin.render.canvas import Patch
 from tagmetry.twin.render.coverage import footprint_means
 from tagmetry.twin.render.dots import disc_shares
 from tagmetry.twin.render.grid import Grid
@@ -21,19 +19,6 @@ from tagmetry.twin.scenes.sheet import Dot, Print, Sheet
 
 _SOLID = np.ones((1, 1))
 _ROWS_LOOKED_AT = 9
-
-
-@dataclass(frozen=True, eq=False)
-class Patch:
-    """What a sheet adds to a picture, on the fine grid of a box.
-
-    Attributes:
-        radiance: Its light times its share of every point.
-        share: How much of every point it covers, 0 to 1.
-    """
-
-    radiance: FloatImage
-    share: FloatImage
 
 
 def painted(one: SeenSheet, box: Box, grid: Grid, view: View, light: Light) -> Patch:
@@ -47,7 +32,7 @@ def painted(one: SeenSheet, box: Box, grid: Grid, view: View, light: Light) -> P
         light: What shines on it.
     """
     sheet = one.sheet
-    Ts_camera_sheet = view.Ts_camera_thing(one.thing.path, grid.rows_px) * sheet.T_thing_sheet
+    Ts_camera_sheet = _poses(one, grid, view)
     x_m, y_m = grid.hits_m(box, Ts_camera_sheet)
     _, share = footprint_means(x_m / sheet.width_m + 0.5, 0.5 - y_m / sheet.height_m, _SOLID)
     ink = np.zeros_like(share)
@@ -60,6 +45,13 @@ def painted(one: SeenSheet, box: Box, grid: Grid, view: View, light: Light) -> P
         reflected *= _lit(x_m, y_m, light, view.T_world_thing(one.thing.path) * sheet.T_thing_sheet)
     radiance = reflected + sheet.glow * share
     return Patch(radiance.astype(np.float32), share.astype(np.float32))
+
+
+def _poses(one: SeenSheet, grid: Grid, view: View) -> RigidTransform:
+    """Return T_camera_sheet, once or for each of the grid's rows."""
+    if not view.rolls_over(one.thing.path):
+        return one.T_camera_sheet
+    return view.Ts_camera_thing(one.thing.path, grid.rows_px) * one.sheet.T_thing_sheet
 
 
 def _prints_within(

@@ -46,9 +46,13 @@ class View:
 
     def Ts_camera_thing(self, thing: Path, rows_px: Array) -> RigidTransform:  # noqa: N802
         """Return where a thing is for every row, or its one pose where all rows see the same."""
-        if self.line_s == 0 or not (self.path.moves or thing.moves):
+        if not self.rolls_over(thing):
             return self.T_camera_thing(thing)
         return self._relative(thing, self.times_s(rows_px))
+
+    def rolls_over(self, thing: Path) -> bool:
+        """Say whether rows can see a thing at different places."""
+        return self.line_s != 0 and (self.path.moves or thing.moves)
 
     def _relative(self, thing: Path, times_s: Array) -> RigidTransform:
         return self.path.at(times_s).inv() * thing.at(times_s)
