@@ -12,6 +12,7 @@ COMMANDS = [
     "", "detect", "info", "demo", "camera", "camera show", "camera convert",
     "print", "print marker", "print sheet", "print board", "print board grid",
     "print board aprilgrid", "print board chessboard", "print board charuco",
+    "twin", "twin render", "twin list",
 ]  # fmt: skip
 LIMIT_S = 0.5
 HEAVY = ("numpy", "cv2", "scipy", "av", "pyarrow", "reportlab", "yaml", "numba")

@@ -53,10 +53,10 @@ class RenderedWriter:
         if self._is_folder:
             with refusing(self._out):
                 self._out.mkdir(parents=True, exist_ok=True)
-        save_camera(self._recipe.shot.picture_camera, self._beside("camera.yaml"))
         with ExitStack() as opening:
-            self._pictures: Writer[Image] = opening.enter_context(self._opened())
             opening.enter_context(self._truth)
+            self._pictures: Writer[Image] = opening.enter_context(self._opened())
+            save_camera(self._recipe.shot.picture_camera, self._beside("camera.yaml"))
             self._stack = opening.pop_all()
         return self
 

@@ -60,7 +60,9 @@ def arena(
         *(_robot(number, family, size_m, way) for number, way in enumerate(ways)),
     )
     above = _hung(height_m)
-    light = Light(0.6, (Lamp(np.array([-1.2, 0.6, 3.5]), 3.0), Lamp(np.array([1.3, -0.5, 3.5]), 3.0)))
+    light = Light(
+        0.6, (Lamp(np.array([-1.2, 0.6, 3.5]), 3.0), Lamp(np.array([1.3, -0.5, 3.5]), 3.0))
+    )
     shot = machine_camera(Still(above), _FIELD_OF_VIEW_DEG, brightness=1.0)
     return Recipe(Scene(things, light), shot, images, seed=seed)
 
