@@ -12,6 +12,7 @@ from typer.exceptions import TyperException
 
 from tagmetry import __version__
 from tagmetry.cli.bench import bench
+from tagmetry.cli.calibrate import calibrate
 from tagmetry.cli.camera import app as camera_app
 from tagmetry.cli.demo import demo
 from tagmetry.cli.detect import detect
@@ -28,6 +29,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.command()(detect)
+app.command()(calibrate)
 app.add_typer(print_app, name="print")
 app.add_typer(camera_app, name="camera")
 app.add_typer(twin_app, name="twin")

@@ -1,0 +1,186 @@
+"""The report as one page: no script, nothing from elsewhere, readable in light and dark."""
+
+import base64
+from collections.abc import Iterator, Sequence
+from html import escape
+
+import numpy as np
+
+from tagmetry.record.calibration_report.drawing import svg
+from tagmetry.record.calibration_report.facts import CalibrationFacts
+from tagmetry.record.calibration_report.figures import ReportFigure, every_figure
+from tagmetry.record.calibration_report.style import STYLE
+from tagmetry.record.calibration_report.tables import (
+    Cell,
+    ReportTable,
+    choice_table,
+    distortion_table,
+    error_table,
+    matrix_table,
+    parameter_table,
+    pose_error_table,
+    pose_table,
+    short_name,
+    view_names,
+)
+from tagmetry.record.calibration_report.thumbnails import jpeg, outlined
+
+_MOST_THUMBNAILS = 40
+_GRADES = {"good": "Good", "usable": "Usable", "poor": "Poor"}
+
+
+def page(facts: CalibrationFacts) -> str:
+    """Return the report as HTML.
+
+    Raises:
+        MissingExtraError: Matplotlib is not installed.
+    """
+    figures = {figure.name: figure for figure in every_figure(facts)}
+    body = "\n".join(_sections(facts, figures))
+    return (
+        '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>Camera calibration</title>\n<style>{STYLE}</style>\n</head>\n"
+        f"<body>\n<main>\n{body}\n</main>\n</body>\n</html>\n"
+    )
+
+
+def _sections(facts: CalibrationFacts, figures: dict[str, ReportFigure]) -> Iterator[str]:
+    calibration = facts.calibration
+    yield _header(facts)
+    yield _section("Verdict", _verdict(facts))
+    yield _section("Camera", _table(parameter_table(calibration)), _TWO_DEVIATIONS)
+    yield _section("Uncertainty over the image", _figure(figures["uncertainty"]))
+    yield _section("Residual field", _figure(figures["residuals"]))
+    yield _section("Coverage", _figure(figures["coverage"]), _figure(figures["tilts"]))
+    yield _section("Views", _figure(figures["errors"]), _thumbnails(facts), _rejected(facts))
+    yield _section("Choice of the lens", *_choice(facts))
+    yield _section(
+        "Error of a marker's pose", _figure(figures["pose_errors"]), _table(pose_error_table(facts))
+    )
+    tables = (
+        matrix_table(calibration),
+        distortion_table(calibration),
+        pose_table(calibration),
+        error_table(facts),
+    )
+    yield _section("Tables", _FRAMES, *(_titled(table) for table in tables))
+
+
+_TWO_DEVIATIONS = (
+    "<p class='note'>The standard deviation allows for errors that depend on each other within a "
+    "view; the usual formula, which most programs print, does not.</p>"
+)
+_FRAMES = (
+    "<p class='note'>Rotation vectors and translations take the board's coordinates (x right, y "
+    "up, z out of its face, from its centre) to the camera's (x right, y down, z forward). The "
+    "error “as seed 003 counts” is the mean over the views of the norm of all errors divided by "
+    "the number of corners, as OpenCV's tutorial has it.</p>"
+)
+
+
+def _header(facts: CalibrationFacts) -> str:
+    camera, views = facts.calibration.camera, len(facts.calibration.views)
+    grade = facts.verdict.grade
+    return (
+        f"<header><h1>Camera calibration</h1><p>{camera.width_px} by {camera.height_px} px, "
+        f"{views} views of <code>{escape(facts.board)}</code></p>"
+        f"<p class='badge {grade}'>{_GRADES[grade]}</p>"
+        f"<p class='note'>{escape(camera.provenance)}</p></header>"
+    )
+
+
+def _verdict(facts: CalibrationFacts) -> str:
+    told = facts.verdict
+    parts = [f"<p>{escape(told.words)}</p>"]
+    parts += _list("Fit for", told.fit_for)
+    parts += _list("Weak", told.warnings)
+    parts += _list("The board", facts.remarks)
+    return "".join(parts)
+
+
+def _list(title: str, entries: Sequence[str]) -> list[str]:
+    if not entries:
+        return []
+    rows = "".join(f"<li>{escape(entry)}</li>" for entry in entries)
+    return [f"<h3>{escape(title)}</h3><ul>{rows}</ul>"]
+
+
+def _choice(facts: CalibrationFacts) -> Iterator[str]:
+    table = choice_table(facts.calibration)
+    if table is None or facts.calibration.choice is None:
+        yield "<p>The lens was asked for by name; none were compared.</p>"
+        return
+    yield f"<p>{escape(facts.calibration.choice.reason)}.</p>"
+    yield _table(table)
+
+
+def _section(title: str, *parts: str) -> str:
+    return f"<section><h2>{escape(title)}</h2>{''.join(parts)}</section>"
+
+
+def _titled(table: ReportTable) -> str:
+    return f"<h3>{escape(table.title)}</h3>{_table(table)}"
+
+
+def _table(table: ReportTable) -> str:
+    head = "".join(f"<th scope='col'>{escape(name)}</th>" for name in table.header)
+    rows = "".join(
+        f"<tr>{''.join(f'<td>{escape(_shown(cell))}</td>' for cell in row)}</tr>"
+        for row in table.rows
+    )
+    whole = f"<thead><tr>{head}</tr></thead><tbody>{rows}</tbody>"
+    return f"<div class='wide'><table>{whole}</table></div>"
+
+
+def _shown(cell: Cell) -> str:
+    """Return a cell for people: five or so digits."""
+    if not isinstance(cell, float):
+        return str(cell)
+    if not np.isfinite(cell):
+        return "-"
+    return f"{cell:.5g}" if abs(cell) < 1000 else f"{cell:.1f}"
+
+
+def _figure(figure: ReportFigure) -> str:
+    return (
+        f"<figure>{_image(svg(figure.draw()), 'svg+xml', f'{figure.title}. {figure.told}')}"
+        f"<figcaption><strong>{escape(figure.title)}.</strong> {escape(figure.told)}</figcaption>"
+        "</figure>"
+    )
+
+
+def _thumbnails(facts: CalibrationFacts) -> str:
+    calibration = facts.calibration
+    each = zip(
+        facts.thumbnails,
+        calibration.views,
+        calibration.kept,
+        view_names(calibration),
+        calibration.view_rms_px,
+        strict=True,
+    )
+    shown = [
+        f"<figure>{_image(jpeg(outlined(small, view, kept)), 'jpeg', f'{name} with its corners')}"
+        f"<figcaption>{escape(name)}<br>{rms_px:.3f} px</figcaption></figure>"
+        for small, view, kept, name, rms_px in each
+        if small.size
+    ]
+    more = len(shown) - _MOST_THUMBNAILS
+    rest = f"<p class='note'>and {more} more</p>" if more > 0 else ""
+    return f"<div class='thumbs'>{''.join(shown[:_MOST_THUMBNAILS])}</div>{rest}"
+
+
+def _rejected(facts: CalibrationFacts) -> str:
+    if not facts.rejected:
+        return "<p>Every picture was used.</p>"
+    rows = tuple((short_name(one.source), one.reason) for one in facts.rejected)
+    table = ReportTable("rejected", "Pictures that were not used", ("picture", "why"), rows)
+    return (
+        f"<details><summary>{len(rows)} pictures were not used</summary>{_table(table)}</details>"
+    )
+
+
+def _image(content: bytes, kind: str, told: str) -> str:
+    encoded = base64.b64encode(content).decode("ascii")
+    return f"<img src='data:image/{kind};base64,{encoded}' alt='{escape(told, quote=True)}'>"
