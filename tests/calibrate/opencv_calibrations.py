@@ -33,7 +33,10 @@ def data_folder() -> Path:
 
 @cache
 def real_views(half_window_px: int = 5) -> tuple[BoardView, ...]:
-    """Return the corners of the 13 pictures as OpenCV finds and refines them."""
+    """Return the corners of the 13 pictures as OpenCV finds and refines them.
+
+    A half window of 0 is a third of the distance between corners.
+    """
     return tuple(_real_view(path, half_window_px) for path in sorted(data_folder().glob("*.jpg")))
 
 
@@ -42,6 +45,10 @@ def _real_view(path: Path, half_window_px: int) -> BoardView:
     found, corners = cv2.findChessboardCorners(grey, (9, 6))
     assert found
     criteria = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_COUNT, 30, 0.1)
+    if half_window_px == 0:
+        grid = corners.reshape(6, 9, 2)
+        spacings = [np.linalg.norm(np.diff(grid, axis=axis), axis=-1).min() for axis in (0, 1)]
+        half_window_px = int(min(spacings) / 3)
     corners = cv2.cornerSubPix(grey, corners, (half_window_px,) * 2, (-1, -1), criteria)
     return view_of(corners.reshape(-1, 2).astype(float), (640, 480), 0.14, path.name)
 

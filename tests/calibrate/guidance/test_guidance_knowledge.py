@@ -1,5 +1,7 @@
 """What is known after views: laws of information, and OpenCV's own covariance."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from opencv_calibrations import (
@@ -55,6 +57,15 @@ def test_after_more_views_the_covariance_is_that_of_opencv() -> None:
     found = basis @ np.linalg.inv(start.with_views(VIEWS[6:]).information) @ basis.T
     expected = opencv_covariance(CAMERA.matrix, CAMERA.lens, VIEWS, POSES, calibration.residuals_px)
     np.testing.assert_allclose(np.diag(found), np.diag(expected), rtol=0.1)
+
+
+def test_deviations_that_were_claimed_wrong_do_no_harm() -> None:
+    """Ten times the true sd of every corner: what the errors show counts, not what was claimed."""
+    claimed = [replace(view, sd_px=10 * view.sd_px) for view in VIEWS]
+    start = Knowledge.of_calibration(calibration_of(CAMERA, claimed[:6], POSES[:6]))
+    np.testing.assert_allclose(start.worst_px, known().worst_px, rtol=1e-6)
+    after = start.with_views(claimed[6:]).worst_px
+    np.testing.assert_allclose(after, known().with_views(VIEWS[6:]).worst_px, rtol=1e-6)
 
 
 def test_a_rough_camera_holds_for_common_ones() -> None:
@@ -138,9 +149,9 @@ def test_without_any_view_the_board_is_tilted() -> None:
     ("place", "last_m", "words"),
     [
         (
-            Place((50.0, 40.0), 0.4, 9.0, 0.0),
+            Place((600.0, 440.0), 0.4, 9.0, -90.0),
             0.8,
-            "at the upper left of the picture, its face turned 9 degrees to the right, nearer, 0.40",
+            "at the lower right of the picture, its face turned 9 degrees to the top, nearer, 0.40",
         ),
         (
             Place((320.0, 240.0), 1.0, 0.0, 0.0),

@@ -12,6 +12,7 @@ from opencv_calibrations import (
     solved_by_opencv,
 )
 
+from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.quality import hold_out
 from tagmetry.errors import InputError
 
@@ -22,6 +23,17 @@ def test_real_pictures_give_the_reference_figures() -> None:
     assert found.alternate_rms_px == pytest.approx(0.2104, abs=0.0015)
     assert found.view_px.max() == pytest.approx(0.267, abs=0.004)
     assert hold_out(solved_by_opencv(real_views(), 4)).rms_px == pytest.approx(0.2012, abs=0.0015)
+
+
+def test_windows_that_follow_the_spacing_are_better() -> None:
+    found = hold_out(solved_by_opencv(real_views(0), 5))
+    assert found.rms_px == pytest.approx(0.183, abs=0.002)
+    assert found.alternate_rms_px == pytest.approx(0.194, abs=0.002)
+
+
+def test_a_board_whose_shape_is_released_shows_left_out_views_better() -> None:
+    found = hold_out(calibrate(real_views(0), "brown4", shape="free"))
+    assert found.rms_px < 0.130  # 0.124 by free points of OpenCV, 0.183 flat
 
 
 def test_a_left_out_view_by_opencv_alone() -> None:

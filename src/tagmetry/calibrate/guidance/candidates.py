@@ -77,7 +77,7 @@ def candidates(
         known: What is known of the camera.
         board: The board.
         limits: How it can be held.
-        taken: Views that are not to be repeated.
+        taken: Views that are not to be repeated while there are other places.
 
     Raises:
         InputError: There is none within the limits.
@@ -90,11 +90,11 @@ def candidates(
     inside = _inside(camera, pixels, limits.margin_px)
     least = _LEAST_SEEN if board.markers() else 1.0
     new = _farther_than(limits.apart_share * np.hypot(*camera.size_px), pixels, taken)
-    enough = np.flatnonzero((inside.mean(axis=1) >= least) & new)
+    shown = inside.mean(axis=1) >= least
+    enough = np.flatnonzero(shown & new if (shown & new).any() else shown)
     if not enough.size:
         raise InputError(
-            "no place within the limits shows enough of the board, away from the views taken; "
-            "allow it to be farther away"
+            "no place within the limits shows enough of the board; allow it to be farther away"
         )
     weights = inside[enough] / known.corner_sd_px**2
     points, nowhere = np.arange(len(p_board)), np.zeros((*weights.shape, 2))

@@ -24,6 +24,7 @@ from tagmetry.calibrate.sightings import Sightings, gather
 from tagmetry.calibrate.view import BoardView
 from tagmetry.calibrate.zhang import poses_from_homographies
 from tagmetry.camera import BrownLens, Camera
+from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 
 _GRID = (9, 7)
@@ -155,4 +156,7 @@ def _to_pixels(motion: ImpliedMotion, freedom: Freedom) -> Array:
     """Return d(pixel) / d(free intrinsics) over the image, shape (g, 2, free)."""
     remaining = at_pixels(motion, image_grid(motion.camera, *_GRID)) @ freedom.basis
     remaining = remaining.reshape(-1, 2, freedom.count)
-    return np.asarray(remaining[np.isfinite(remaining).all(axis=(1, 2))])
+    shown = np.isfinite(remaining).all(axis=(1, 2))
+    if not shown.any():
+        raise InputError("the camera's lens shows nothing of its own image; calibrate again")
+    return np.asarray(remaining[shown])

@@ -53,7 +53,7 @@ def next_view(
         known: What is known of the camera so far.
         board: The board.
         limits: How it can be held.
-        taken: Views that are not to be repeated.
+        taken: Views that are not to be repeated while there are other places.
         last_distance_m: Where it is now, to say nearer or farther.
 
     Raises:

@@ -177,12 +177,7 @@ class Session:
 def _taken(session: Session, view: BoardView) -> Session:
     """Return a session with one more view: solved anew, and what to show next."""
     plan, taken = session.plan, (*session.taken, view)
-    calibration = _solved(plan, taken)
-    known = (
-        Knowledge.rough(plan.size_px).with_views(taken)
-        if calibration is None
-        else Knowledge.of_calibration(calibration)
-    )
+    calibration, known = _known(plan, taken)
     return replace(
         session,
         taken=taken,
@@ -192,13 +187,15 @@ def _taken(session: Session, view: BoardView) -> Session:
     )
 
 
-def _solved(plan: Plan, taken: Sequence[BoardView]) -> Calibration | None:
-    if len(taken) < _FEW:
-        return None
-    try:
-        return plan.solve(taken)
-    except InputError:  # the views do not determine a camera yet: go on as without
-        return None
+def _known(plan: Plan, taken: Sequence[BoardView]) -> tuple[Calibration | None, Knowledge]:
+    """Return what views tell; without a calibration where they do not determine a camera yet."""
+    if len(taken) >= _FEW:
+        try:
+            calibration = plan.solve(taken)
+            return calibration, Knowledge.of_calibration(calibration)
+        except InputError:
+            pass
+    return None, Knowledge.rough(plan.size_px).with_views(taken)
 
 
 def _worst_px(known: Knowledge, calibration: Calibration | None) -> float:

@@ -32,8 +32,8 @@ class Verdict:
 
     Attributes:
         words: The whole of it in a few sentences.
-        grade: "good": within 0.5 px everywhere on the image, by eight views or more; "usable": within 1 px on half of it;
-            "poor": neither.
+        grade: "good": within 0.5 px everywhere on the image, by eight views or more; "usable":
+            within 1 px on half of it; "poor": neither.
         fit_for: What it can be used for, each with the number that says so.
         warnings: What is weak and why, the worst first; they contain what the calibration warns of.
         next_view: The picture to add that helps most; None where no board was given, or none fits.
