@@ -63,7 +63,7 @@ def arena(
     light = Light(
         0.6, (Lamp(np.array([-1.2, 0.6, 3.5]), 3.0), Lamp(np.array([1.3, -0.5, 3.5]), 3.0))
     )
-    shot = machine_camera(Still(above), _FIELD_OF_VIEW_DEG, brightness=1.0)
+    shot = machine_camera(Still(above), _FIELD_OF_VIEW_DEG)
     return Recipe(Scene(things, light), shot, images, seed=seed)
 
 

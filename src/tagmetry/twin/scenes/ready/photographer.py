@@ -10,19 +10,19 @@ from tagmetry.twin.sensor import Sensor
 from tagmetry.twin.vignetting import Vignetting
 
 
-def webcam(path: Path, *, brightness: float = 0.8) -> Shot:
+def webcam(path: Path, *, brightness: float = 0.8, exposure_s: float = 0.002) -> Shot:
     """Return a webcam of 1280x720 pixels: 65 degrees, some distortion, a display's curve."""
     return Shot(
         Camera(1280, 720, (1005.0, 1003.0), (643.2, 355.8), BrownLens((-0.12, 0.04, 0.0, 0.0))),
         path,
         optics=Optics(0.9, vignetting=Vignetting(0.7), veil=0.01),
-        shutter=Shutter(0.002),
+        shutter=Shutter(exposure_s),
         sensor=Sensor(full_well_e=9_000, read_noise_e=9, response=Srgb()),
         brightness=brightness,
     )
 
 
-def machine_camera(path: Path, field_of_view_deg: float, *, brightness: float = 0.9) -> Shot:
+def machine_camera(path: Path, field_of_view_deg: float, *, brightness: float = 1.3) -> Shot:
     """Return an industrial camera of 1920x1080 pixels, linear, with a good lens.
 
     Args:
