@@ -1,6 +1,7 @@
 """A blank figure with axes, and a figure as SVG or PNG; by Matplotlib, which is optional."""
 
 import io
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +10,7 @@ from tagmetry.record.palette import ORANGE, SKY_BLUE, VERMILLION, Color
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.colors import Normalize
     from matplotlib.figure import Figure
 
 _STYLE: dict[Any, object] = {
@@ -53,6 +55,23 @@ def image_axes(axes: "Axes", size_px: tuple[int, int]) -> None:
     axes.set_aspect("equal")
     axes.set_xlabel("x, px")
     axes.set_ylabel("y, px")
+
+
+def log_colors(levels: Sequence[float]) -> "Normalize":
+    """Return how colours follow levels that rise by factors."""
+    from matplotlib.colors import LogNorm
+
+    return LogNorm(levels[0], levels[-1])
+
+
+def plain_ticks(axes: "Axes") -> None:
+    """Write a logarithmic axis' numbers as people do: 0.5, 1, 2, 50."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FormatStrFormatter("%g"))
+        axis.set_minor_formatter(NullFormatter())
 
 
 def svg(figure: "Figure") -> bytes:

@@ -6,7 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, LIGHT, RED, blank, image_axes
+from tagmetry.record.calibration_report.drawing import (
+    BLUE,
+    GOLD,
+    LIGHT,
+    RED,
+    blank,
+    image_axes,
+    log_colors,
+    plain_ticks,
+)
 from tagmetry.record.calibration_report.facts import CalibrationFacts
 from tagmetry.record.calibration_report.tables import view_names
 
@@ -54,12 +63,14 @@ def _uncertainty(facts: CalibrationFacts) -> ReportFigure:
         sd_px = np.ma.masked_invalid(uncertainty.sd_px)
         levels = _levels(sd_px.compressed())
         x, y = uncertainty.pixels[..., 0], uncertainty.pixels[..., 1]
-        filled = axes.contourf(x, y, sd_px, levels=levels, cmap="cividis", extend="max")
+        filled = axes.contourf(
+            x, y, sd_px, levels=levels, cmap="cividis", norm=log_colors(levels), extend="both"
+        )
         lines = axes.contour(x, y, sd_px, levels=levels, colors="white", linewidths=0.6)
         axes.clabel(lines, fmt="%g", fontsize=8)
         seen = np.concatenate([view.corners_px for view in facts.calibration.views])
         axes.plot(*seen.T, ".", ms=1.5, color="white", alpha=0.5)
-        figure.colorbar(filled, ax=axes, label="standard deviation, px", ticks=levels)
+        figure.colorbar(filled, ax=axes, label="standard deviation, px", ticks=levels, format="%g")
         image_axes(axes, facts.calibration.camera.size_px)
         return figure
 
@@ -208,6 +219,7 @@ def _poses(facts: CalibrationFacts) -> ReportFigure:
             mm = [error.worst_mm for error in own]
             axes.plot(distances, mm, marker=mark, color=color, label=name)
         axes.set(xscale="log", yscale="log", xlabel="distance, m", ylabel="worst direction, mm")
+        plain_ticks(axes)
         axes.legend(fontsize=8)
         return figure
 

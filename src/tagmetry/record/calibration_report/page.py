@@ -125,12 +125,14 @@ def _titled(table: ReportTable) -> str:
 
 def _table(table: ReportTable) -> str:
     head = "".join(f"<th scope='col'>{escape(name)}</th>" for name in table.header)
-    rows = "".join(
-        f"<tr>{''.join(f'<td>{escape(_shown(cell))}</td>' for cell in row)}</tr>"
-        for row in table.rows
-    )
+    rows = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in table.rows)
     whole = f"<thead><tr>{head}</tr></thead><tbody>{rows}</tbody>"
     return f"<div class='wide'><table>{whole}</table></div>"
+
+
+def _cell(cell: Cell) -> str:
+    kind = " class='text'" if isinstance(cell, str) else ""
+    return f"<td{kind}>{escape(_shown(cell))}</td>"
 
 
 def _shown(cell: Cell) -> str:

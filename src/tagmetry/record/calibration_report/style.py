@@ -29,8 +29,7 @@ table { border-collapse: collapse; width: 100%; font-size: .86rem;
   font-variant-numeric: tabular-nums; }
 th, td { padding: .28rem .6rem; text-align: right; border-bottom: 1px solid var(--line); }
 th { color: var(--soft); font-weight: 600; vertical-align: bottom; }
-th:first-child, td:first-child, td:last-child:nth-child(2), th:last-child:nth-child(2)
-  { text-align: left; }
+th:first-child, td.text { text-align: left; }
 .thumbs { display: grid; grid-template-columns: repeat(auto-fill, minmax(9rem, 1fr)); gap: .6rem; }
 .thumbs figure { margin: 0; } .thumbs figcaption { text-align: center; font-size: .8rem; }
 summary { cursor: pointer; margin: .8rem 0 .4rem; }

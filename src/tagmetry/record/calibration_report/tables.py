@@ -106,12 +106,14 @@ def pose_table(calibration: Calibration) -> ReportTable:
     """Return rotation vector and translation of the board in every view."""
     Ts = calibration.Ts_camera_board
     numbers = np.hstack([np.degrees(Ts.rotation.as_rotvec()), np.asarray(Ts.translation) * 1e3])
-    rows = tuple(
-        (name, *(float(value) for value in row))
-        for name, row in zip(view_names(calibration), numbers, strict=True)
-    )
+    names = view_names(calibration)
+    rows: list[tuple[Cell, ...]] = [
+        (n, *row) for n, row in zip(names, numbers.tolist(), strict=True)
+    ]
     header = ("view", "rx deg", "ry deg", "rz deg", "tx mm", "ty mm", "tz mm")
-    return ReportTable("table5_views", "Rotation and translation of every view", header, rows)
+    return ReportTable(
+        "table5_views", "Rotation and translation of every view", header, tuple(rows)
+    )
 
 
 def error_table(facts: CalibrationFacts) -> ReportTable:
