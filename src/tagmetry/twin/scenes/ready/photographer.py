@@ -4,20 +4,29 @@ import numpy as np
 
 from tagmetry.camera import BrownLens, Camera
 from tagmetry.twin.render.shot import Optics, Shot, Shutter
-from tagmetry.twin.response import Srgb
+from tagmetry.twin.response import Linear, Srgb
 from tagmetry.twin.scenes.path import Path
 from tagmetry.twin.sensor import Sensor
 from tagmetry.twin.vignetting import Vignetting
 
 
-def webcam(path: Path, *, brightness: float = 0.8, exposure_s: float = 0.002) -> Shot:
-    """Return a webcam of 1280x720 pixels: 65 degrees, some distortion, a display's curve."""
+def webcam(
+    path: Path, *, brightness: float = 0.8, exposure_s: float = 0.002, srgb: bool = True
+) -> Shot:
+    """Return a webcam of 1280x720 pixels: 65 degrees, some distortion, the curve of sRGB or none.
+
+    Args:
+        path: Where it is.
+        brightness: Exposure of the radiance 1.
+        exposure_s: For how long it takes light in.
+        srgb: Whether its grey values are made for a display; else they are linear in the light.
+    """
     return Shot(
         Camera(1280, 720, (1005.0, 1003.0), (643.2, 355.8), BrownLens((-0.12, 0.04, 0.0, 0.0))),
         path,
         optics=Optics(0.9, vignetting=Vignetting(0.7), veil=0.01),
         shutter=Shutter(exposure_s),
-        sensor=Sensor(full_well_e=9_000, read_noise_e=9, response=Srgb()),
+        sensor=Sensor(full_well_e=9_000, read_noise_e=9, response=Srgb() if srgb else Linear()),
         brightness=brightness,
     )
 

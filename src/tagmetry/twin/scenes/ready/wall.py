@@ -20,6 +20,7 @@ def wall(
     family: str = "tag36h11",
     size_m: float = 0.16,
     distance_m: float = 1.8,
+    srgb: bool = False,
     images: int = 1,
     seed: int = 0,
 ) -> Recipe:
@@ -31,6 +32,8 @@ def wall(
         family: Of the markers; ids count from 0, row by row.
         size_m: Side of their black squares.
         distance_m: From the wall to the camera.
+        srgb: Whether the grey values are made for a display, which moves blurred edges; else they
+            are linear in the light.
         images: How many, 30 in a second.
         seed: Of the wall, of how the papers hang, and of the noise.
     """
@@ -53,4 +56,4 @@ def wall(
     )
     path = Steady(start, np.array([-0.05, 0.0, 0.0]), np.zeros(3))
     light = Light(0.75, (Lamp(np.array([-1.5, -1.6, 2.6]), 1.2),))
-    return Recipe(Scene(things, light), webcam(path), images, seed=seed)
+    return Recipe(Scene(things, light), webcam(path, srgb=srgb), images, seed=seed)
