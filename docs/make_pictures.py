@@ -8,7 +8,7 @@ import numpy as np
 import tagmetry
 from tagmetry.cli.main import run
 from tagmetry.record.overlay import draw_overlay
-from tagmetry.twin import Look, render, showcase
+from tagmetry.twin import photograph, showcase
 
 IMAGES = Path(__file__).parent / "images"
 
@@ -16,8 +16,7 @@ IMAGES = Path(__file__).parent / "images"
 def overlay() -> None:
     """Render, detect, measure and draw."""
     camera, rng = showcase.CAMERA, np.random.default_rng(1)
-    look = Look(noise=0.0)
-    picture = render(showcase.markers(), showcase.T_camera_wall, camera, rng, look)
+    picture = photograph(showcase.scene(), showcase.shot(), rng)
     detections = tagmetry.Detector([showcase.FAMILY]).detect(picture, camera)
     poses = [tagmetry.estimate_pose(one, camera, showcase.SIZE_M) for one in detections]
     drawn = draw_overlay(picture, detections, poses, camera)

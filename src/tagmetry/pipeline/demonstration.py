@@ -15,7 +15,7 @@ from tagmetry.markers import family
 from tagmetry.pipeline.measurement import Measurement
 from tagmetry.pose import PoseHypothesis
 from tagmetry.record import ImageResult, draw_overlay, open_overlay, open_writer
-from tagmetry.twin import Look, render, showcase
+from tagmetry.twin import photograph, showcase
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def _printed(folder: Path) -> tuple[Path, ...]:
 
 
 def _photographed(rng: np.random.Generator) -> Image:
-    pixels = render(showcase.markers(), showcase.T_camera_wall, showcase.CAMERA, rng, Look())
+    pixels = photograph(showcase.scene(), showcase.shot(), rng)
     return Image(pixels, source="rendered scene", camera=showcase.CAMERA)
 
 
