@@ -69,6 +69,7 @@ def test_a_sweep_takes_any_board(board: str) -> None:
     assert recipe.shot.camera.contains(one.corners_px).all()
 
 
+@pytest.mark.slow
 def test_a_walls_markers_are_found_at_the_truth() -> None:
     recipe = wall(columns=2, rows=1, distance_m=0.9)
     shot = replace(recipe.shot, camera=scaled(recipe.shot.camera, 640, 360))  # quick to render
@@ -80,6 +81,7 @@ def test_a_walls_markers_are_found_at_the_truth() -> None:
         assert error_px.max() < 0.05
 
 
+@pytest.mark.slow
 def test_a_webcam_loses_what_an_hdr_camera_sees_beside_a_window() -> None:
     def contrast(hdr: bool) -> float:
         made = picture(backlit_window(hdr=hdr), 0)
@@ -115,6 +117,7 @@ def test_a_held_pose_stands_still_and_then_jumps() -> None:
     np.testing.assert_array_equal(at, [[0] * 3, [0] * 3, [1] * 3, [1] * 3, [1] * 3])
 
 
+@pytest.mark.slow
 def test_pictures_are_the_same_again() -> None:
     recipe = wall(columns=1, rows=1)
     np.testing.assert_array_equal(picture(recipe, 0).pixels, picture(recipe, 0).pixels)
