@@ -21,6 +21,7 @@ from tagmetry.pipeline.calibration import (
     RefusedError,
     Request,
     Sighting,
+    advice_line,
     look,
     run_calibration,
     sightings,
@@ -156,8 +157,6 @@ def test_a_wrong_board_is_refused_and_the_right_one_named(asked: str, says: str)
     with pytest.raises(RefusedError, match="expected at least 3 views") as caught:
         run_calibration(seen, Request(board))
     assert len(caught.value.rejected) == 3
-    from tagmetry.pipeline.calibration import advice_line
-
     assert any(says in advice_line(one) for one in caught.value.advice)
 
 
@@ -166,7 +165,7 @@ def test_a_measured_print_is_judged_with_the_pictures() -> None:
     run = run_calibration(seen, Request(BOARD, "none", measured_m={"width": 0.24}))
     assert "printed at another scale" in [one.title for one in run.advice]
     with pytest.raises(InputError, match="expected a measured length"):
-        run_calibration(seen, Request(BOARD, "none", measured_m={"marker": 0.24}))
+        Request(BOARD, measured_m={"marker": 0.24})
 
 
 def test_a_broken_picture_is_one_that_shows_nothing(tmp_path: Path) -> None:

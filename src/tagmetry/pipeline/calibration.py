@@ -57,6 +57,7 @@ class Request:
     measured_m: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        check_measured(self.board, self.measured_m)  # refuses lengths that the board does not have
         if self.most_views < 3:
             raise InputError(f"a calibration needs at least 3 views, asked for {self.most_views}")
 

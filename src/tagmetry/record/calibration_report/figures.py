@@ -44,13 +44,14 @@ class ReportFigure:
 
 def every_figure(facts: CalibrationFacts) -> tuple[ReportFigure, ...]:
     """Return all figures of a calibration, not drawn yet."""
+    poses = (_poses(facts),) if facts.pose_errors else ()
     return (
         _uncertainty(facts),
         _residuals(facts),
         _coverage(facts),
         _tilts(facts),
         _errors(facts),
-        _poses(facts),
+        *poses,
     )
 
 
@@ -223,7 +224,7 @@ def _poses(facts: CalibrationFacts) -> ReportFigure:
         axes.legend(fontsize=8)
         return figure
 
-    size_mm = 1e3 * facts.pose_errors[0].size_m if facts.pose_errors else 0.0
+    size_mm = 1e3 * facts.pose_errors[0].size_m
     return ReportFigure(
         "pose_errors",
         "What the calibration does to a marker's position",

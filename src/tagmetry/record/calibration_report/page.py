@@ -55,9 +55,9 @@ def _sections(facts: CalibrationFacts, figures: dict[str, ReportFigure]) -> Iter
     yield _section("Coverage", _figure(figures["coverage"]), _figure(figures["tilts"]))
     yield _section("Views", _figure(figures["errors"]), _thumbnails(facts), _rejected(facts))
     yield _section("Choice of the lens", *_choice(facts))
-    yield _section(
-        "Error of a marker's pose", _figure(figures["pose_errors"]), _table(pose_error_table(facts))
-    )
+    if facts.pose_errors:
+        shown = (_figure(figures["pose_errors"]), _table(pose_error_table(facts)))
+        yield _section("Error of a marker's pose", *shown)
     tables = (
         matrix_table(calibration),
         distortion_table(calibration),
@@ -124,6 +124,8 @@ def _titled(table: ReportTable) -> str:
 
 
 def _table(table: ReportTable) -> str:
+    if not table.rows:
+        return "<p>None.</p>"
     head = "".join(f"<th scope='col'>{escape(name)}</th>" for name in table.header)
     rows = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in table.rows)
     whole = f"<thead><tr>{head}</tr></thead><tbody>{rows}</tbody>"
