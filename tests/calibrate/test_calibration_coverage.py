@@ -9,8 +9,8 @@ import pytest
 from scipy import stats
 from seen_boards import FISHEYE, NARROW, USUAL, WIDE, Truth, seen, truth
 
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.choice import LensName
+from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.geometry import mahalanobis_squared
 
 PINHOLE = truth(90, ())

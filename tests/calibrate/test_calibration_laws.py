@@ -8,12 +8,12 @@ from scipy.spatial.transform import Rotation
 from seen_boards import FISHEYE, USUAL, board_points, seen
 
 from tagmetry.calibrate.bundle import Bundle, Freedom, linearise
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.fit import begin
 from tagmetry.calibrate.freedom import Wanted
 from tagmetry.calibrate.normal import eliminate_poses, normal_equations, pose_changes
 from tagmetry.calibrate.result import Calibration
 from tagmetry.calibrate.sightings import Sightings, gather
+from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.geometry import Array
 
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from seen_boards import FISHEYE, USUAL, Truth, board_points, seen, truth, view_of
 
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.fit import Fit, fit_flat, release_shape
 from tagmetry.calibrate.freedom import Wanted
 from tagmetry.calibrate.hold_out import hold_out_px
 from tagmetry.calibrate.result import Calibration
 from tagmetry.calibrate.sightings import gather
 from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.views_to_camera import calibrate
 
 DATA = Path(os.environ.get("TAGMETRY_DATA", Path(__file__).parents[3] / "shared" / "data"))
 RATIONAL = truth(100, (0.5, 0.1, 0.0003, -0.0002, 0.01, 0.85, 0.25, 0.03))

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from seen_boards import FISHEYE, NARROW, USUAL, WIDE, board_points, seen, view_of
 
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.errors import InputError
 
 

@@ -13,10 +13,10 @@ import cv2
 import numpy as np
 import pytest
 
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.guidance import measure, verdict
 from tagmetry.calibrate.quality import Place, pose_error
 from tagmetry.calibrate.view import BoardView, RejectedView
+from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.camera import Camera
 from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.geometry.transforms import Rotation

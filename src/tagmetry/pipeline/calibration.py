@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 import cv2
 import numpy as np
 
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.choice import LensModel
 from tagmetry.calibrate.doctor import (
     BoardAdvice,
@@ -21,6 +20,7 @@ from tagmetry.calibrate.guidance import most_informative
 from tagmetry.calibrate.result import Calibration
 from tagmetry.calibrate.targets import find_board
 from tagmetry.calibrate.view import BoardView, RejectedView
+from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.camera import Image
 from tagmetry.errors import InputError
 from tagmetry.files.board_text import board_text

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.doctor import check_measured, check_print_aspect
 from tagmetry.calibrate.result import Calibration
 from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.camera import Camera
 from tagmetry.errors import InputError
 from tagmetry.files.board_text import parse_board

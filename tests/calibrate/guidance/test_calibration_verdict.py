@@ -14,8 +14,8 @@ from opencv_calibrations import (
     solved_by_opencv,
 )
 
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.guidance import measure, verdict
+from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.camera import BrownLens
 from tagmetry.errors import InputError
 

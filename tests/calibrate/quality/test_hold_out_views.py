@@ -12,8 +12,8 @@ from opencv_calibrations import (
     solved_by_opencv,
 )
 
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.quality import hold_out
+from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.errors import InputError
 
 

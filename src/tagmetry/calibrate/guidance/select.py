@@ -15,11 +15,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.guidance.gate import distance_px
 from tagmetry.calibrate.guidance.knowledge import Knowledge, bundle_of
 from tagmetry.calibrate.sightings import gather
 from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from tagmetry.calibrate.calibrate import calibrate
 from tagmetry.calibrate.guidance.candidates import HoldingLimits
 from tagmetry.calibrate.guidance.gate import GateLimits, is_blurred, is_repeated, is_unsteady
 from tagmetry.calibrate.guidance.knowledge import Knowledge
@@ -19,6 +18,7 @@ from tagmetry.calibrate.quality.projection import projection_uncertainty
 from tagmetry.calibrate.result import Calibration
 from tagmetry.calibrate.targets import ViewQuality
 from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import IntArray
 from tagmetry.markers import Board
