@@ -16,6 +16,7 @@ from tagmetry.camera.fold import least_positive_root
 from tagmetry.geometry.arrays import Array
 
 COEFFICIENTS = 14
+_SLOPE = np.array([1.0, 3.0, 5.0, 7.0])  # d(r q^i) / dr = (2 i + 1) q^i with q = r^2
 
 
 def distort(xy: Array, coefficients: Array) -> Array:
@@ -57,8 +58,27 @@ def jacobian_by_point(xy: Array, coefficients: Array) -> Array:
     return np.asarray(_through_jacobian(tilt_matrix(*coefficients[12:]), untilted) @ jacobian)
 
 
-def jacobian_by_coefficients(xy: Array, coefficients: Array) -> Array:
-    """Return d(distorted) / d(coefficients), shape (..., 2, 14)."""
+def jacobian_by_coefficients(xy: Array, coefficients: Array, count: int = COEFFICIENTS) -> Array:
+    """Return d(distorted) / d(coefficients), shape (..., 2, count).
+
+    Args:
+        xy: Ideal normalised points, shape (..., 2).
+        coefficients: Shape (14,), missing ones zero.
+        count: How many of them to derive by, from the first.
+    """
+    jacobian = np.zeros((*xy.shape[:-1], 2, COEFFICIENTS))
+    _fill_polynomial(jacobian, xy, coefficients)
+    if not (count > 12 or coefficients[12:].any()):
+        return jacobian[..., :count]
+    untilted = distort(xy, np.append(coefficients[:12], [0.0, 0.0]))
+    tilt = tilt_matrix(*coefficients[12:])
+    jacobian[..., :12] = _through_jacobian(tilt, untilted) @ jacobian[..., :12]
+    jacobian[..., 12:] = _tilt_jacobian(untilted, *coefficients[12:])
+    return jacobian[..., :count]
+
+
+def _fill_polynomial(jacobian: Array, xy: Array, coefficients: Array) -> None:
+    """Write the first 12 columns, those of a sensor that is not tilted."""
     k1, k2, _, _, k3, k4, k5, k6 = coefficients[:8]
     x, y = xy[..., 0], xy[..., 1]
     r2 = x * x + y * y
@@ -66,18 +86,13 @@ def jacobian_by_coefficients(xy: Array, coefficients: Array) -> Array:
     gain = (1 + r2 * (k1 + r2 * (k2 + r2 * k3))) / below
     powers = np.stack([r2, r2**2, r2**3], axis=-1)
     by_above, by_below = powers / below[..., None], -powers * (gain / below)[..., None]
-    jacobian = np.zeros((*xy.shape[:-1], 2, COEFFICIENTS))
     for axis, along in enumerate((x, y)):
-        jacobian[..., axis, [0, 1, 4]] = along[..., None] * by_above
+        jacobian[..., axis, 0:2] = along[..., None] * by_above[..., :2]
+        jacobian[..., axis, 4] = along * by_above[..., 2]
         jacobian[..., axis, 5:8] = along[..., None] * by_below
         jacobian[..., axis, 8 + 2 * axis : 10 + 2 * axis] = powers[..., :2]
     jacobian[..., 0, 2], jacobian[..., 0, 3] = 2 * x * y, r2 + 2 * x * x
     jacobian[..., 1, 2], jacobian[..., 1, 3] = r2 + 2 * y * y, 2 * x * y
-    untilted = distort(xy, np.append(coefficients[:12], [0.0, 0.0]))
-    tilt = tilt_matrix(*coefficients[12:])
-    jacobian[..., :12] = _through_jacobian(tilt, untilted) @ jacobian[..., :12]
-    jacobian[..., 12:] = _tilt_jacobian(untilted, *coefficients[12:])
-    return jacobian
 
 
 def undistort(bent: Array, coefficients: Array, fold_radius: float) -> Array:
@@ -111,13 +126,12 @@ def fold_radius(coefficients: Array) -> float:
     It is the least positive root of d(r g(r)) / dr, or the first pole of g.
     """
     k1, k2, _, _, k3, k4, k5, k6 = coefficients[:8]
-    above, below = np.array([k3, k2, k1, 1.0]), np.array([k6, k5, k4, 1.0])  # in r^2
-    q = np.array([1.0, 0.0])
-    slope = np.polysub(
-        np.polymul(np.polyadd(above, 2 * np.polymul(q, np.polyder(above))), below),
-        2 * np.polymul(q, np.polymul(above, np.polyder(below))),
-    )
-    return float(np.sqrt(min(least_positive_root(p[::-1]) for p in (slope, below))))
+    above, below = np.array([1.0, k1, k2, k3]), np.array([1.0, k4, k5, k6])  # rising, in r^2
+    if not coefficients[5:8].any():
+        return float(np.sqrt(least_positive_root(_SLOPE * above)))
+    order = np.arange(4.0)
+    slope = np.convolve(_SLOPE * above, below) - np.convolve(above, 2 * order * below)
+    return float(np.sqrt(min(least_positive_root(p) for p in (slope, below))))
 
 
 def tilt_matrix(tilt_x_rad: float, tilt_y_rad: float) -> Array:

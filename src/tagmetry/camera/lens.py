@@ -84,11 +84,11 @@ class BrownLens:
         """Return d(bent) / d(point) (..., 2, 3) and d(bent) / d(coefficients) (..., 2, n)."""
         xy = self._ideal(p_camera)
         by_xy = brown.jacobian_by_point(xy, self._all)
-        depth = p_camera[..., 2][..., None, None]
-        by_depth = -(by_xy @ xy[..., None])
-        by_point = np.concatenate([by_xy, by_depth], axis=-1) / depth
-        by_all = brown.jacobian_by_coefficients(xy, self._all)
-        return by_point, by_all[..., : len(self.coefficients)]
+        by_point = np.empty((*xy.shape[:-1], 2, 3))
+        by_point[..., :2] = by_xy
+        by_point[..., 2] = -(by_xy * xy[..., None, :]).sum(axis=-1)
+        by_point /= p_camera[..., 2][..., None, None]
+        return by_point, brown.jacobian_by_coefficients(xy, self._all, len(self.coefficients))
 
     def straighten(self, bent: Array) -> Array:
         """Return unit rays (..., 3) of distorted normalised coordinates (..., 2)."""
