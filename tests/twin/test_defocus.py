@@ -5,8 +5,8 @@ import pytest
 
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import Array, FloatImage
-from tagmetry.twin.defocus import spread_by_depth
-from tagmetry.twin.spread import Spread, pixel_means, spread
+from tagmetry.twin.optics.defocus import spread_by_depth
+from tagmetry.twin.optics.spread import Spread, pixel_means, spread
 
 FINE = 4
 

@@ -11,7 +11,7 @@ from scipy.special import ndtr
 from tagmetry.camera import Camera, scaled, zoomed
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import Array, FloatImage
-from tagmetry.twin.digital_zoom import Interpolation, zoomed_pixels
+from tagmetry.twin.optics.digital_zoom import Interpolation, zoomed_pixels
 
 SIZES = st.integers(3, 60)
 ZOOMS = st.floats(1.0, 8.0)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tagmetry.twin.disc import disc_kernel
+from tagmetry.twin.optics.disc import disc_kernel
 
 
 def counted(radius: float, per_cell: int = 201) -> np.ndarray:

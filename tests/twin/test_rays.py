@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tagmetry.camera import BrownLens, Camera, FisheyeLens, Lens
-from tagmetry.twin.render.rays import Rays
+from tagmetry.twin.optics.rays import Rays
 
 LENSES = {
     "none": BrownLens(),

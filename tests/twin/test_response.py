@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tagmetry.errors import InputError
-from tagmetry.twin.response import Curve, Gamma, Hdr, Linear, Response, Srgb
+from tagmetry.twin.optics.response import Curve, Gamma, Hdr, Linear, Response, Srgb
 
 RESPONSES = [
     Linear(),

@@ -12,8 +12,8 @@ from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.twin import Optics, Scene, Shot, Shutter, Thing, exposed
+from tagmetry.twin.optics.thin_lens import ThinLens
 from tagmetry.twin.scenes import Path, Sheet, Steady, Still
-from tagmetry.twin.thin_lens import ThinLens
 
 AT_CAMERA = Still(RigidTransform.identity())
 PLAIN = camera(LENSES["none"])

@@ -10,8 +10,8 @@ from tagmetry.camera import Camera
 from tagmetry.errors import InputError
 from tagmetry.files import save_camera
 from tagmetry.geometry.transforms import Rotation
+from tagmetry.twin.optics.response import Hdr
 from tagmetry.twin.recipe import Recipe, pictures
-from tagmetry.twin.response import Hdr
 from tagmetry.twin.scene_files import load_recipe
 from tagmetry.twin.scenes import Steady, Waypoints
 from tagmetry.twin.truth import image_truth

@@ -6,8 +6,8 @@ from scipy import stats
 
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import FloatImage
-from tagmetry.twin.response import Gamma, Hdr, Srgb
-from tagmetry.twin.sensor import Sensor, developed
+from tagmetry.twin.optics.response import Gamma, Hdr, Srgb
+from tagmetry.twin.optics.sensor import Sensor, developed
 
 WHITE_8 = 255
 

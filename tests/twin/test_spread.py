@@ -11,7 +11,7 @@ from scipy.special import ndtr
 
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import Array, FloatImage
-from tagmetry.twin.spread import Spread, fine_scale, gaussian_kernel, pixel_means, spread
+from tagmetry.twin.optics.spread import Spread, fine_scale, gaussian_kernel, pixel_means, spread
 
 PLACES_PX = np.random.default_rng(0).uniform(-0.5, 0.5, 40)  # of an edge, from a pixel's centre
 

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tagmetry.errors import InputError
-from tagmetry.twin.spread import Spread, pixel_means, spread
-from tagmetry.twin.spread_pixels import spread_pixels
+from tagmetry.twin.optics.spread import Spread, pixel_means, spread
+from tagmetry.twin.optics.spread_pixels import spread_pixels
 
 
 @given(st.integers(1, 5), st.integers(1, 12), st.integers(1, 12), st.floats(0.0, 4.0))

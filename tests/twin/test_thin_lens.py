@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tagmetry.errors import InputError
-from tagmetry.twin.thin_lens import ThinLens
+from tagmetry.twin.optics.thin_lens import ThinLens
 
 LENS = ThinLens(focal_m=0.016, aperture_m=0.008, pixel_m=3e-6)
 

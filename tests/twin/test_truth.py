@@ -10,9 +10,9 @@ from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import CharucoBoard, MountedMarker, marker_corners_m
 from tagmetry.twin import Optics, Scene, Shot, Shutter
+from tagmetry.twin.optics.thin_lens import ThinLens
 from tagmetry.twin.render import DigitalZoom
 from tagmetry.twin.scenes import Steady, Still, board_thing, marker_thing, surface
-from tagmetry.twin.thin_lens import ThinLens
 from tagmetry.twin.truth import MarkerTruth, image_truth, truth_line
 
 CAMERA = Camera(640, 480, (500.0, 500.0), (319.5, 239.5))

@@ -40,9 +40,9 @@ from tagmetry.twin.camera import (
     ready_camera,
     webcam,
 )
+from tagmetry.twin.optics.sensor import Sensor
+from tagmetry.twin.optics.thin_lens import ThinLens
 from tagmetry.twin.scenes import Scene, Steady, Still, Thing, marker_thing, surface
-from tagmetry.twin.sensor import Sensor
-from tagmetry.twin.thin_lens import ThinLens
 
 FACING = Rotation.from_euler("x", 180, degrees=True)
 EMPTY = Scene((), background=0.5)

@@ -5,7 +5,7 @@ import pytest
 
 from tagmetry.camera import BrownLens, Camera, FisheyeLens, zoomed
 from tagmetry.errors import InputError
-from tagmetry.twin.vignetting import Vignetting, gain_map, vignetted
+from tagmetry.twin.optics.vignetting import Vignetting, gain_map, vignetted
 
 CAMERA = Camera(64, 48, (40.0, 42.0), (30.0, 25.0))
 LIGHT = np.random.default_rng(0).random((48, 64), dtype=np.float32)

@@ -11,12 +11,12 @@ from tagmetry.camera import BrownLens, Camera
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import MountedMarker, cube
+from tagmetry.twin.optics.sensor import Sensor
+from tagmetry.twin.optics.vignetting import Vignetting
 from tagmetry.twin.render import Optics, Shot
 from tagmetry.twin.scenes import Lamp, Light, Scene, Still, marker_thing
 from tagmetry.twin.scenes.furniture import box
 from tagmetry.twin.scenes.ready.building import plaster
-from tagmetry.twin.sensor import Sensor
-from tagmetry.twin.vignetting import Vignetting
 
 CAMERA = Camera(
     1280,

@@ -18,10 +18,10 @@ from tagmetry.camera.controls import RULED_BY, Control
 from tagmetry.errors import InputError
 from tagmetry.twin.camera.focus_law import FixedFocus, FocusLaw
 from tagmetry.twin.camera.setting import Setting
-from tagmetry.twin.digital_zoom import Interpolation
-from tagmetry.twin.sensor import Sensor
-from tagmetry.twin.thin_lens import ThinLens
-from tagmetry.twin.vignetting import Vignetting
+from tagmetry.twin.optics.digital_zoom import Interpolation
+from tagmetry.twin.optics.sensor import Sensor
+from tagmetry.twin.optics.thin_lens import ThinLens
+from tagmetry.twin.optics.vignetting import Vignetting
 
 SETTABLE = {"zoom": "zoom_percent", "focus": "focus", "exposure": "exposure_s", "gain": "gain"}
 """Controls of a simulated camera, and the fields of `Setting` that they set."""

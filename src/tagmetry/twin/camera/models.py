@@ -7,10 +7,10 @@ from tagmetry.camera.controls import Control
 from tagmetry.twin.camera.device import Breathing, Device
 from tagmetry.twin.camera.focus_law import FixedFocus, LogFocus
 from tagmetry.twin.camera.setting import Setting
-from tagmetry.twin.response import Srgb
-from tagmetry.twin.sensor import Sensor
-from tagmetry.twin.thin_lens import ThinLens
-from tagmetry.twin.vignetting import Vignetting
+from tagmetry.twin.optics.response import Srgb
+from tagmetry.twin.optics.sensor import Sensor
+from tagmetry.twin.optics.thin_lens import ThinLens
+from tagmetry.twin.optics.vignetting import Vignetting
 
 
 def webcam() -> Device:

@@ -14,10 +14,10 @@ from tagmetry.camera import Camera, cropped, scaled
 from tagmetry.geometry.arrays import FloatImage
 from tagmetry.twin.camera.device import Device
 from tagmetry.twin.camera.intrinsics import sensor_camera
-from tagmetry.twin.digital_zoom import resampling
-from tagmetry.twin.sensor import Sensor
-from tagmetry.twin.thin_lens import ThinLens
-from tagmetry.twin.vignetting import gain_map
+from tagmetry.twin.optics.digital_zoom import resampling
+from tagmetry.twin.optics.sensor import Sensor
+from tagmetry.twin.optics.thin_lens import ThinLens
+from tagmetry.twin.optics.vignetting import gain_map
 
 _MARGIN_PX = 4  # more than any interpolation reaches beyond the pixels that are shown
 _VIGNETTE_PX = 16  # the corners darken so slowly that every 16th pixel tells

@@ -7,7 +7,7 @@ import numpy as np
 from tagmetry.camera import Camera, scaled, zoomed
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.twin.digital_zoom import Interpolation, zoomed_pixels
+from tagmetry.twin.optics.digital_zoom import Interpolation, zoomed_pixels
 
 
 @dataclass(frozen=True)

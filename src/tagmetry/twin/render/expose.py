@@ -13,6 +13,9 @@ from functools import reduce
 import numpy as np
 
 from tagmetry.geometry.arrays import FloatImage
+from tagmetry.twin.optics.spread import Spread
+from tagmetry.twin.optics.spread_pixels import spread_pixels
+from tagmetry.twin.optics.vignetting import vignetted
 from tagmetry.twin.render.box import Box, tiles
 from tagmetry.twin.render.canvas import Canvas
 from tagmetry.twin.render.fineness import fine_of, gaussian_reach_px
@@ -23,9 +26,6 @@ from tagmetry.twin.render.moments import Moment, moments
 from tagmetry.twin.render.paint import painted
 from tagmetry.twin.render.shot import Shot
 from tagmetry.twin.scenes.scene import Scene
-from tagmetry.twin.spread import Spread
-from tagmetry.twin.spread_pixels import spread_pixels
-from tagmetry.twin.vignetting import vignetted
 
 _TILE_PX = 192
 _LOOKED_AT = 3  # moments of an exposure, to find how steeply sheets are seen

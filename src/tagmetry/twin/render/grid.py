@@ -7,10 +7,10 @@ import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
+from tagmetry.twin.optics.rays import Rays
 from tagmetry.twin.render.box import Box
 from tagmetry.twin.render.finer import finer
 from tagmetry.twin.render.hits import hits_m
-from tagmetry.twin.render.rays import Rays
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ import numpy as np
 
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import FloatImage
-from tagmetry.twin.defocus import spread_by_depth
+from tagmetry.twin.optics.defocus import spread_by_depth
+from tagmetry.twin.optics.spread import pixel_means
 from tagmetry.twin.render.box import Box
 from tagmetry.twin.render.canvas import Canvas, Patch
 from tagmetry.twin.render.fineness import LARGEST_DISC_PX, fine_of, gaussian_reach_px
@@ -22,7 +23,6 @@ from tagmetry.twin.render.seen import SeenSheet
 from tagmetry.twin.render.shot import Shot
 from tagmetry.twin.render.view import View
 from tagmetry.twin.scenes.scene import Scene
-from tagmetry.twin.spread import pixel_means
 
 _NEAREST_M = 1e-6
 

@@ -15,8 +15,8 @@ import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array
+from tagmetry.twin.optics.rays import Rays
 from tagmetry.twin.render.box import Box
-from tagmetry.twin.render.rays import Rays
 from tagmetry.twin.render.seen import SeenSheet
 
 _PER_SIDE = 3  # rays looked at along a box

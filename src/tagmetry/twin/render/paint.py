@@ -7,6 +7,7 @@ its row sees.
 import numpy as np
 
 from tagmetry.geometry import Array, RigidTransform
+from tagmetry.geometry.arrays import FloatImage
 from tagmetry.twin.render.box import Box
 from tagmetry.twin.render.canvas import Patch
 from tagmetry.twin.render.coverage import footprint_means
@@ -42,7 +43,8 @@ def painted(one: SeenSheet, box: Box, grid: Grid, view: View, light: Light) -> P
         ink[rows, columns] += _ink_share(printed, x_m[corners], y_m[corners])
     reflected = sheet.paper * share + (sheet.ink - sheet.paper) * ink
     if light.lamps or light.ambient != 1.0:
-        reflected *= _lit(x_m, y_m, light, view.T_world_thing(one.thing.path) * sheet.T_thing_sheet)
+        T_world_sheet = view.T_world_thing(one.thing.path) * sheet.T_thing_sheet
+        reflected *= _lit(x_m, y_m, grid.fine, light, T_world_sheet)
     radiance = reflected + sheet.glow * share
     return Patch(radiance.astype(np.float32), share.astype(np.float32))
 
@@ -78,15 +80,16 @@ def _ink_share(one: Print | Dot, x_m: Array, y_m: Array) -> Array:
     return footprint_means(x_m / one.cell_m + columns / 2, rows / 2 - y_m / one.cell_m, one.ink)[0]
 
 
-def _lit(x_m: Array, y_m: Array, light: Light, T_world_sheet: RigidTransform) -> Array:
-    """Return the light on the middle of every footprint."""
-    x_m, y_m = _middles(x_m), _middles(y_m)
+def _lit(
+    x_m: Array, y_m: Array, fine: int, light: Light, T_world_sheet: RigidTransform
+) -> FloatImage:
+    """Return the light on every footprint: between that on the corners of its pixel."""
+    x_m, y_m = x_m[::fine, ::fine], y_m[::fine, ::fine]
     p_sheet = np.nan_to_num(np.stack([x_m, y_m, np.zeros_like(x_m)], axis=-1))
     p_world = T_world_sheet.apply(p_sheet.reshape(-1, 3)).reshape(p_sheet.shape)
-    return light.on(p_world, T_world_sheet.rotation.as_matrix()[:, 2])
-
-
-def _middles(corners: Array) -> Array:
-    return np.asarray(
-        (corners[:-1, :-1] + corners[:-1, 1:] + corners[1:, :-1] + corners[1:, 1:]) / 4
-    )
+    corners = light.on(p_world, T_world_sheet.rotation.as_matrix()[:, 2]).astype(np.float32)
+    share = ((np.arange(fine, dtype=np.float32) + 0.5) / fine)[:, None]
+    rows = corners[:-1, None] * (1 - share) + corners[1:, None] * share
+    rows = rows.reshape(-1, corners.shape[1])[:, :, None]
+    share = share[:, 0]
+    return np.asarray((rows[:, :-1] * (1 - share) + rows[:, 1:] * share).reshape(len(rows), -1))

@@ -10,10 +10,10 @@ from dataclasses import replace
 import numpy as np
 
 from tagmetry.geometry.arrays import AnyPixels
+from tagmetry.twin.optics.sensor import developed, through_jpeg
 from tagmetry.twin.render.expose import exposed
 from tagmetry.twin.render.shot import Shot
 from tagmetry.twin.scenes import Scene
-from tagmetry.twin.sensor import developed, through_jpeg
 
 
 def photograph(scene: Scene, shot: Shot, rng: np.random.Generator) -> AnyPixels:

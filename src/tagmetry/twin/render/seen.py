@@ -1,14 +1,15 @@
 """Which sheets a camera sees, in the order in which they are painted."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
+from tagmetry.twin.optics.rays import Rays
 from tagmetry.twin.render.box import Box
 from tagmetry.twin.render.order import painting_order
-from tagmetry.twin.render.rays import Rays
 from tagmetry.twin.render.view import View
 from tagmetry.twin.scenes.scene import Scene
 from tagmetry.twin.scenes.sheet import Sheet, rectangle_m
@@ -44,12 +45,7 @@ def seen_sheets(scene: Scene, view: View, margin_px: int) -> list[SeenSheet]:
         view: Who sees it.
         margin_px: How far around the image light still matters.
     """
-    seen = [
-        found
-        for thing in scene.things
-        for sheet in thing.sheets
-        if (found := _seen(thing, sheet, view, margin_px)) is not None
-    ]
+    seen = [one for thing in scene.things for one in _seen_of(thing, view, margin_px)]
     if len(seen) < 2:
         return seen
     corners = np.stack([one.T_camera_sheet.apply(one.sheet.corners_m) for one in seen])
@@ -82,16 +78,20 @@ def covered_box(
     return Box(int(low[0]), int(low[1]), int(high[0]), int(high[1]))
 
 
-def _seen(thing: Thing, sheet: Sheet, view: View, margin_px: int) -> SeenSheet | None:
-    T_camera_sheet = view.T_camera_thing(thing.path) * sheet.T_thing_sheet
-    outward = T_camera_sheet.rotation.as_matrix()[:, 2]
-    if outward @ T_camera_sheet.translation >= 0:  # its back is turned
-        return None
+def _seen_of(thing: Thing, view: View, margin_px: int) -> Iterator[SeenSheet]:
+    """Give the sheets of a thing that can be seen."""
+    T_camera_thing = view.T_camera_thing(thing.path)
     rows_px = np.linspace(-0.5, view.camera.height_px - 0.5, _ROWS_LOOKED_AT)
-    Ts_camera_sheet = view.Ts_camera_thing(thing.path, rows_px) * sheet.T_thing_sheet
-    box = covered_box((sheet.width_m / 2, sheet.height_m / 2), (0, 0), Ts_camera_sheet, view.camera)
-    box &= Box(0, 0, *view.camera.size_px).grown(margin_px)
-    return SeenSheet(thing, sheet, box, T_camera_sheet) if box else None
+    Ts_camera_thing = view.Ts_camera_thing(thing.path, rows_px)
+    image = Box(0, 0, *view.camera.size_px).grown(margin_px)
+    for sheet in thing.sheets:
+        T_camera_sheet = T_camera_thing * sheet.T_thing_sheet
+        if T_camera_sheet.rotation.as_matrix()[:, 2] @ T_camera_sheet.translation >= 0:
+            continue  # its back is turned
+        half_m = (sheet.width_m / 2, sheet.height_m / 2)
+        poses = Ts_camera_thing * sheet.T_thing_sheet
+        if box := image & covered_box(half_m, (0, 0), poses, view.camera):
+            yield SeenSheet(thing, sheet, box, T_camera_sheet)
 
 
 def _rim_m(half_width_m: float, half_height_m: float) -> Array:

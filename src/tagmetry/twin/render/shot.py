@@ -6,12 +6,12 @@ import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.errors import InputError
+from tagmetry.twin.optics.sensor import Sensor
+from tagmetry.twin.optics.thin_lens import ThinLens
+from tagmetry.twin.optics.vignetting import Vignetting
 from tagmetry.twin.render.crop import DigitalZoom
 from tagmetry.twin.render.view import View
 from tagmetry.twin.scenes.path import Path
-from tagmetry.twin.sensor import Sensor
-from tagmetry.twin.thin_lens import ThinLens
-from tagmetry.twin.vignetting import Vignetting
 
 
 @dataclass(frozen=True)

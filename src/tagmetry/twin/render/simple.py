@@ -9,10 +9,10 @@ from tagmetry.camera import Camera
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.markers import MountedMarker
+from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.render.photograph import photograph
 from tagmetry.twin.render.shot import Optics, Shot
 from tagmetry.twin.scenes import Scene, Still, marker_thing
-from tagmetry.twin.sensor import Sensor
 
 _FULL_SCALE = 255.0
 

@@ -17,10 +17,13 @@ from tagmetry.camera import BrownLens, Camera, FisheyeLens, Lens
 from tagmetry.errors import InputError
 from tagmetry.files import load_camera
 from tagmetry.files.checked import OwnFileModel
-from tagmetry.twin.digital_zoom import Interpolation
+from tagmetry.twin.optics.digital_zoom import Interpolation
+from tagmetry.twin.optics.response import Curve, Gamma, Hdr, Linear, Response, Srgb
+from tagmetry.twin.optics.sensor import Sensor
+from tagmetry.twin.optics.thin_lens import ThinLens
+from tagmetry.twin.optics.vignetting import Vignetting
 from tagmetry.twin.render.crop import DigitalZoom
 from tagmetry.twin.render.shot import Optics, Shot, Shutter
-from tagmetry.twin.response import Curve, Gamma, Hdr, Linear, Response, Srgb
 from tagmetry.twin.scene_files.fields import (
     Length,
     NotNegative,
@@ -30,9 +33,6 @@ from tagmetry.twin.scene_files.fields import (
     SizePx,
 )
 from tagmetry.twin.scene_files.place import MovingPlace, WaypointPath, path_of
-from tagmetry.twin.sensor import Sensor
-from tagmetry.twin.thin_lens import ThinLens
-from tagmetry.twin.vignetting import Vignetting
 
 _Angle = Annotated[float, Field(gt=0, lt=175)]
 _Bits = Annotated[int, Field(ge=8, le=16)]

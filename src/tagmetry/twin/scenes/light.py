@@ -45,6 +45,7 @@ class Light:
         light = np.full(p_world.shape[:-1], self.ambient)
         for lamp in self.lamps:
             to_lamp = lamp.p_world - p_world
-            distance2 = np.sum(to_lamp**2, axis=-1)
-            light += lamp.strength * np.maximum(to_lamp @ normal, 0.0) / distance2**1.5
+            distance2 = np.einsum("...i,...i->...", to_lamp, to_lamp)
+            facing = np.maximum(np.einsum("...i,i->...", to_lamp, normal), 0.0)
+            light += lamp.strength * facing / (distance2 * np.sqrt(distance2))
         return light

@@ -13,7 +13,7 @@ import numpy as np
 
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
-from tagmetry.twin.render.rays import Rays
+from tagmetry.twin.optics.rays import Rays
 from tagmetry.twin.render.view import View
 from tagmetry.twin.scenes.path import Path
 

@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 
 from tagmetry.camera import BrownLens, Camera
+from tagmetry.twin.optics.response import Hdr
+from tagmetry.twin.optics.sensor import Sensor
+from tagmetry.twin.optics.vignetting import Vignetting
 from tagmetry.twin.recipe import Recipe
 from tagmetry.twin.render.shot import Optics, Shot
-from tagmetry.twin.response import Hdr
 from tagmetry.twin.scenes.furniture import box
 from tagmetry.twin.scenes.light import Light
 from tagmetry.twin.scenes.path import Path, Still, looking
@@ -15,8 +17,6 @@ from tagmetry.twin.scenes.ready.building import UP, concrete, facing, hung, plas
 from tagmetry.twin.scenes.ready.photographer import webcam
 from tagmetry.twin.scenes.scene import Scene
 from tagmetry.twin.scenes.thing import Thing, marker_thing, surface
-from tagmetry.twin.sensor import Sensor
-from tagmetry.twin.vignetting import Vignetting
 
 _AWAY = (0.0, -1.0, 0.0)  # from the wall, y = 0, into the room
 _EYE_M = 1.4

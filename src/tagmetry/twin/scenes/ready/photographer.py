@@ -3,11 +3,11 @@
 import numpy as np
 
 from tagmetry.camera import BrownLens, Camera
+from tagmetry.twin.optics.response import Linear, Srgb
+from tagmetry.twin.optics.sensor import Sensor
+from tagmetry.twin.optics.vignetting import Vignetting
 from tagmetry.twin.render.shot import Optics, Shot, Shutter
-from tagmetry.twin.response import Linear, Srgb
 from tagmetry.twin.scenes.path import Path
-from tagmetry.twin.sensor import Sensor
-from tagmetry.twin.vignetting import Vignetting
 
 
 def webcam(

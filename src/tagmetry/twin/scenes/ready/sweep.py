@@ -7,8 +7,8 @@ from tagmetry.files.board_text import parse_board
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import Board
+from tagmetry.twin.optics.rays import Rays
 from tagmetry.twin.recipe import Recipe
-from tagmetry.twin.render.rays import Rays
 from tagmetry.twin.render.shot import Shot
 from tagmetry.twin.scenes.furniture import clutter
 from tagmetry.twin.scenes.held import Held

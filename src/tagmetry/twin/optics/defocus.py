@@ -11,7 +11,7 @@ import numpy as np
 
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import Array, BoolArray, FloatImage
-from tagmetry.twin.spread import Spread, check_grid, spread
+from tagmetry.twin.optics.spread import Spread, check_grid, spread
 
 _LEVEL_RATIO = 1.1
 _LEAST_DISC_PX = 0.25  # smaller ones are shares of it and of none

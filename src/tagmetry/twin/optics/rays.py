@@ -8,6 +8,7 @@ derivative, each pixel from its neighbour's ray), so that a slip in the one show
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numba import njit
@@ -30,38 +31,47 @@ class Rays:
         """Return viewing directions of pixels, shape (..., 3), NaN where there is none."""
         bent_x = (u - self.camera.center_px[0]) / self.camera.focal_px[0]
         bent_y = (v - self.camera.center_px[1]) / self.camera.focal_px[1]
-        fisheye = self.camera.lens.kind == "fisheye"
-        rays = _straightened(bent_x.ravel(), bent_y.ravel(), self._coefficients, fisheye)
+        k, fold = _law(self.camera.lens.coefficients, self._is_fisheye)
+        rays = _straightened(bent_x.ravel(), bent_y.ravel(), k, fold, self._is_fisheye)
         return np.asarray(rays.reshape(*u.shape, 3))
 
     def see(self, p_camera: Array) -> Array:
-        """Return the pixels that show points (..., 3), shape (..., 2); z must be positive."""
+        """Return the pixels that show points (..., 3), shape (..., 2), NaN where none does."""
         points = np.ascontiguousarray(p_camera.reshape(-1, 3))
-        fisheye = self.camera.lens.kind == "fisheye"
-        bent = _bent(points, self._coefficients, fisheye).reshape(*p_camera.shape[:-1], 2)
+        k, fold = _law(self.camera.lens.coefficients, self._is_fisheye)
+        bent = _bent(points, k, fold, self._is_fisheye).reshape(*p_camera.shape[:-1], 2)
         return np.asarray(bent * self.camera.focal_px + self.camera.center_px)
 
     @property
-    def _coefficients(self) -> Array:
-        given = np.array(self.camera.lens.coefficients, dtype=np.float64)
-        return np.concatenate([given, np.zeros(14 - len(given))])
+    def _is_fisheye(self) -> bool:
+        return self.camera.lens.kind == "fisheye"
+
+
+@lru_cache(maxsize=64)
+def _law(coefficients: tuple[float, ...], fisheye: bool) -> tuple[Array, float]:
+    """Return all 14 coefficients, and where the image folds: radius squared, or angle squared."""
+    k = np.concatenate([coefficients, np.zeros(14 - len(coefficients))])
+    if fisheye:
+        return k, _fisheye_fold(k) ** 2
+    return k, _fold(k) if k.any() else np.inf
 
 
 @njit(cache=True, nogil=True)
-def _bent(points: Array, k: Array, fisheye: bool) -> Array:
+def _bent(points: Array, k: Array, fold: float, fisheye: bool) -> Array:
     """Return the bent rays of points (n, 3), shape (n, 2)."""
     bent = np.full((len(points), 2), np.nan)
     for i in range(len(points)):
         x, y, z = points[i]
         if fisheye:
-            bent[i] = _bend_fisheye(x, y, z, k)
-        elif z > 0:
+            if np.arctan2(np.sqrt(x * x + y * y), z) ** 2 < fold:
+                bent[i] = _bend_fisheye(x, y, z, k)
+        elif z > 0 and (x * x + y * y) / (z * z) < fold:
             bent[i] = _bend(x / z, y / z, k)
     return bent
 
 
 @njit(cache=True, nogil=True)
-def _straightened(bent_x: Array, bent_y: Array, k: Array, fisheye: bool) -> Array:
+def _straightened(bent_x: Array, bent_y: Array, k: Array, fold: float, fisheye: bool) -> Array:
     """Return the directions (n, 3) whose bent rays are given."""
     rays = np.full((len(bent_x), 3), np.nan)
     if fisheye:
@@ -71,7 +81,6 @@ def _straightened(bent_x: Array, bent_y: Array, k: Array, fisheye: bool) -> Arra
     if not k.any():
         rays[:, 0], rays[:, 1], rays[:, 2] = bent_x, bent_y, 1.0
         return rays
-    fold = _fold(k)
     x, y, last_x, last_y = 0.0, 0.0, 0.0, 0.0
     slope = np.eye(2)  # d(ray) / d(bent ray), of a neighbour
     for i in range(len(bent_x)):
@@ -183,6 +192,19 @@ def _bend_fisheye(x: float, y: float, z: float, k: Array) -> tuple[float, float]
 def _fisheye_radius(angle: float, k: Array) -> float:
     q = angle * angle
     return float(angle * (1.0 + k[0] * q + k[1] * q**2 + k[2] * q**3 + k[3] * q**4))
+
+
+@njit(cache=True, nogil=True)
+def _fisheye_fold(k: Array) -> float:
+    """Return the least angle at which the image stands still, at most pi, by walking outward."""
+    before = 0.0
+    for step in range(1, 1025):
+        angle = np.pi * step / 1024.0
+        reached = _fisheye_radius(angle, k)
+        if reached <= before:
+            return float(angle)
+        before = reached
+    return np.pi + 1e-9
 
 
 @njit(cache=True, nogil=True)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import FloatImage
-from tagmetry.twin.response import Linear, Response
+from tagmetry.twin.optics.response import Linear, Response
 
 _MANY_E = 1000.0  # from here on Poisson's skewness, below 0.032, is lost in the rounding
 

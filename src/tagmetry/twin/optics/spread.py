@@ -20,7 +20,7 @@ import numpy as np
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import FloatImage
-from tagmetry.twin.disc import disc_kernel
+from tagmetry.twin.optics.disc import disc_kernel
 
 _GAUSSIAN_REACH = 4.5  # standard deviations; 7e-6 of the light lies beyond
 _CELL_VARIANCE = 1 / 12

@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 
 from tagmetry.geometry.arrays import FloatImage
-from tagmetry.twin.spread import Spread, check_grid, gaussian_kernel, pixel_means, spread
+from tagmetry.twin.optics.spread import Spread, check_grid, gaussian_kernel, pixel_means, spread
 
 
 def spread_pixels(image: FloatImage, fine: int, by: Spread) -> FloatImage:

@@ -16,7 +16,7 @@ from tagmetry.camera import Camera
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import FloatImage
-from tagmetry.twin.render.rays import Rays
+from tagmetry.twin.optics.rays import Rays
 
 _NODES_PER_FOCAL = 200
 
