@@ -125,22 +125,53 @@ def errors_px(bundle: Bundle, seen: Sightings) -> Array:
 
 def linearise(bundle: Bundle, seen: Sightings, freedom: Freedom) -> Linear:
     """Return the errors and their analytic Jacobians."""
-    arms, lens, (fx, fy) = bundle.arms(), bundle.lens, bundle.intrinsics[:2]
+    arms = bundle.arms()
     p_camera = arms + bundle.t_camera_board[:, None]
-    bent = lens.bend(p_camera)
-    by_p_camera, by_coefficients = lens.jacobians(p_camera)
-    focal = np.array([fx, fy])
-    by_p_camera, by_coefficients = by_p_camera * focal[:, None], by_coefficients * focal[:, None]
-    by_focal = bent[..., :, None] * np.eye(2)
-    by_center = np.broadcast_to(np.eye(2), by_focal.shape)
-    by_intrinsics = np.concatenate([by_focal, by_center, by_coefficients], axis=-1)
-    by_pose = np.concatenate([by_p_camera, np.cross(arms[:, :, None], by_p_camera)], axis=-1)
-    by_point = by_p_camera @ bundle.R_camera_board[:, None]
-    predicted = bent * focal + bundle.intrinsics[2:4]
-    used = seen.used[..., None]
-    return Linear(
-        np.where(used, seen.corners_px - predicted, 0.0),
-        np.where(used[..., None], by_intrinsics, 0.0) @ freedom.basis,
-        np.where(used[..., None], by_pose, 0.0),
-        np.where(used[..., None], by_point, 0.0),
+    bent = bundle.lens.bend(p_camera)
+    by_p_camera, by_coefficients = bundle.lens.jacobians(p_camera)
+    by_p_camera *= bundle.intrinsics[:2, None]
+    predicted = bent * bundle.intrinsics[:2] + bundle.intrinsics[2:4]
+    parts = (
+        seen.corners_px - predicted,
+        _by_free(bundle, bent, by_coefficients, freedom),
+        _by_pose(arms, by_p_camera),
+        _by_point(by_p_camera, bundle.R_camera_board),
     )
+    return Linear(*(_where_used(part, seen.used) for part in parts))
+
+
+def _by_free(bundle: Bundle, bent: Array, by_coefficients: Array, freedom: Freedom) -> Array:
+    """Return d(pixel) / d(free intrinsics), shape (n, k, 2, free)."""
+    by_intrinsics = np.zeros((*bent.shape, len(bundle.intrinsics)))
+    for axis in range(2):
+        by_intrinsics[..., axis, axis] = bent[..., axis]
+        by_intrinsics[..., axis, 2 + axis] = 1
+        by_intrinsics[..., axis, 4:] = by_coefficients[..., axis, :] * bundle.intrinsics[axis]
+    flat = by_intrinsics.reshape(-1, len(bundle.intrinsics)) @ freedom.basis
+    return np.asarray(flat.reshape(*bent.shape, freedom.count))
+
+
+def _by_pose(arms: Array, by_p_camera: Array) -> Array:
+    """Return d(pixel) / d(dt, dr), shape (n, k, 2, 6): a turn moves a point by dr x arm."""
+    by_pose = np.empty((*by_p_camera.shape[:-1], 6))
+    by_pose[..., :3] = by_p_camera
+    for axis in range(3):
+        after, last = (axis + 1) % 3, (axis + 2) % 3
+        by_pose[..., 3 + axis] = (
+            arms[:, :, None, after] * by_p_camera[..., last]
+            - arms[:, :, None, last] * by_p_camera[..., after]
+        )
+    return by_pose
+
+
+def _by_point(by_p_camera: Array, R_camera_board: Array) -> Array:
+    """Return d(pixel) / d(board point), shape (n, k, 2, 3)."""
+    flat = by_p_camera.reshape(len(R_camera_board), -1, 3) @ R_camera_board
+    return np.asarray(flat.reshape(by_p_camera.shape))
+
+
+def _where_used(part: Array, used: BoolArray) -> Array:
+    """Return (n, k, ...) with zeros where a corner does not count."""
+    if used.all():
+        return part
+    return np.where(used.reshape(*used.shape, *(1,) * (part.ndim - 2)), part, 0.0)

@@ -11,19 +11,31 @@ Bias reduction in standard errors for linear regression with multi-stage samples
 
     C = S^-1 (sum M_v g_v g_v^T M_v) S^-1        S the information
 
-From n views it is known to about n degrees of freedom only: its small axes come out too small. So
-it is drawn towards the formula's shape, as far as its own scatter says it must (O. Ledoit,
-M. Wolf, A well-conditioned estimator for large-dimensional covariance matrices, 2004), and it
-grows by as much of Hotelling's factor as stays of it. The usual ellipsoid, chi^2 below its 95 %
-point, then contains the truth in about 95 % of cases; single standard deviations err to the large
-side when views are few.
+From n views it is known to about n degrees of freedom only. Where every corner errs by itself its
+ellipsoid has the right size in the mean and yet holds the truth in 92 to 93 % of cases from 35
+views (bias is no part of that: the estimate is off by less than a tenth of its standard deviation),
+while the formula holds it in 95 %. So the formula is what is believed, and the sandwich changes it
+only as far as its own scatter lets it, in three steps, in units that make the formula s^2 I:
+
+1. The level, its mean variance, leaves s^2 as far as the difference exceeds the scatter that a
+   level from n views has (W. James, C. Stein, 1961), and upwards only.
+2. The shape leaves the round one in the same way (O. Ledoit, M. Wolf, A well-conditioned estimator
+   for large-dimensional covariance matrices, 2004). What stays of the sandwich grows by as much of
+   Hotelling's factor: it is known from a sample only.
+3. No direction is surer than the formula.
+
+The usual ellipsoid, chi^2 below its 95 % point, then holds the truth in 95 to 97 % of cases with 35
+views, whether corners err by themselves or a view's err together. It is less (about 90 %) where
+they share errors too small to be told from noise by so few views, and single standard deviations
+err to the large side with fewer than 20 views. What all views share (a bent board taken for flat)
+no sandwich by view sees: release the board's shape.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from tagmetry.calibrate.bundle import Bundle, Freedom, Linear, linearise
 from tagmetry.calibrate.normal import eliminate_poses, normal_equations
@@ -38,7 +50,7 @@ class Covariances:
 
     Attributes:
         formula: s^2 (J^T W J)^-1.
-        by_view: The sandwich by view.
+        by_view: The formula, and the sandwich by view as far as it is known to differ.
     """
 
     formula: Array
@@ -63,43 +75,60 @@ def covariances(bundle: Bundle, seen: Sightings, freedom: Freedom) -> Covariance
     inverse = np.linalg.inv(information / np.outer(scale, scale)) / np.outer(scale, scale)
     c = freedom.count
     root = np.linalg.cholesky(inverse[:c, :c])
-    scores = np.array(
-        [_unbiased(own, g, inverse, root) for own, g in _by_view(linear, seen, freedom)]
-    )
+    told = [_unbiased(own, g, inverse, root) for own, g in _by_view(linear, seen, freedom)]
+    scores, parts = (np.array(rows) for rows in zip(*told, strict=True))
+    s2 = _unit_variance(linear, seen, freedom)
     to_intrinsics = freedom.basis @ root
-    formula = _unit_variance(linear, seen, freedom) * np.eye(c)
     return Covariances(
-        to_intrinsics @ formula @ to_intrinsics.T,
-        to_intrinsics @ drawn_to_round(scores) @ to_intrinsics.T,
+        to_intrinsics @ (s2 * np.eye(c)) @ to_intrinsics.T,
+        to_intrinsics @ drawn_to_formula(scores, parts, s2) @ to_intrinsics.T,
     )
 
 
-def drawn_to_round(scores: Array) -> Array:
-    """Return sum s s^T, drawn to a multiple of the identity as far as it is uncertain.
+def drawn_to_formula(scores: Array, parts: Array, s2: float) -> Array:
+    """Return sum s s^T, drawn to the formula's s^2 I as far as it is uncertain.
 
     Args:
-        scores: One for each view, in units in which the formula's covariance is the identity,
-            shape (n, c).
+        scores: One for each view, in units in which the formula's covariance is s^2 I, (n, c).
+        parts: Their covariances over s^2 if the formula holds, shape (n, c, c), sum the identity.
+        s2: The formula's variance.
 
     Returns:
-        Shape (c, c), grown so that it can be used as if it were known exactly.
+        Shape (c, c), nowhere below s^2, grown so that it can be used as if it were known exactly.
     """
     n, c = scores.shape
-    each = n * scores[:, :, None] * scores[:, None, :]
-    mean = each.mean(axis=0)
-    level = np.trace(mean) / c
-    apart = ((mean - level * np.eye(c)) ** 2).sum()
-    scatter = ((each - mean) ** 2).sum() / n**2
-    share = float(min(scatter / apart, 1.0)) if apart > 0 else 1.0
-    grown = 1 + (1 - share) * (_hotelling(n, c) - 1)
-    return np.asarray(grown * ((1 - share) * mean + share * level * np.eye(c)))
+    each = scores[:, :, None] * scores[:, None, :]
+    found, level = each.sum(axis=0), _level(scores, parts, s2)
+    scatter = ((each - level * parts) ** 2).sum()
+    drawn = _share(scatter, ((found - level * np.eye(c)) ** 2).sum())
+    mixed = (1 - drawn) * found + drawn * level * np.eye(c)
+    return _at_least(s2, mixed * (1 + (1 - drawn) * (_hotelling(n, c) - 1)))
+
+
+def _level(scores: Array, parts: Array, s2: float) -> float:
+    """Return the scores' mean variance over the directions, drawn to s^2 and not below it."""
+    c = scores.shape[1]
+    beyond = float((scores**2).sum()) / c - s2
+    scatter = 2 * (parts**2).sum() * (s2 / c) ** 2  # of a sum of squares of normal numbers
+    return s2 + max((1 - _share(scatter, beyond**2)) * beyond, 0.0)
+
+
+def _share(scatter: float, squared: float) -> float:
+    """Return which share of a squared difference is to be expected from scatter, 0 to 1."""
+    return float(min(scatter / squared, 1.0)) if squared > 0 else 1.0
+
+
+def _at_least(least: float, symmetric: Array) -> Array:
+    """Return a covariance with no variance along any direction below the least."""
+    values, vectors = np.linalg.eigh(symmetric)
+    return np.asarray(vectors * np.maximum(values, least) @ vectors.T)
 
 
 def _hotelling(n: int, c: int) -> float:
     """Return by how much a covariance from n samples must grow for 95 % to be within."""
     freedom = max(n - 1, c + 1)
-    limit = c * freedom / (freedom - c + 1) * stats.f.ppf(0.95, c, freedom - c + 1)
-    return float(limit / stats.chi2.ppf(0.95, c))
+    limit = c * freedom / (freedom - c + 1) * special.fdtri(c, freedom - c + 1, 0.95)
+    return float(limit / special.chdtri(c, 0.05))
 
 
 def _by_view(linear: Linear, seen: Sightings, freedom: Freedom) -> Iterator[tuple[Array, Array]]:
@@ -109,8 +138,8 @@ def _by_view(linear: Linear, seen: Sightings, freedom: Freedom) -> Iterator[tupl
         yield eliminate_poses(normal_equations(linear.only(one), seen.weights[one], freedom))
 
 
-def _unbiased(own: Array, gradient: Array, inverse: Array, root: Array) -> Array:
-    """Return what a view's errors do to the free intrinsics in units of `root`, shape (c,).
+def _unbiased(own: Array, gradient: Array, inverse: Array, root: Array) -> tuple[Array, Array]:
+    """Return what a view's errors do to the free intrinsics in units of `root`, (c,), and B.
 
     Errors that are free would have the covariance B, those left by the fit have D; the score is
     multiplied by the symmetric M with M D M = B, so that its square has the right mean.
@@ -121,7 +150,7 @@ def _unbiased(own: Array, gradient: Array, inverse: Array, root: Array) -> Array
     D = B - to_score @ own @ inverse @ own @ to_score.T
     half = _power(B, 0.5)
     M = half @ _power(half @ D @ half, -0.5) @ half
-    return np.asarray(M @ (to_score @ gradient))
+    return np.asarray(M @ (to_score @ gradient)), B
 
 
 def _power(symmetric: Array, exponent: float) -> Array:

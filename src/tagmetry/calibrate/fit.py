@@ -103,8 +103,10 @@ def _solved(
     if robust:
         solution, kept = solve_robustly(start, seen, freedom)
     else:
-        settled = settle_softly(start, seen, freedom).bundle
-        solution = solve(settled, seen, freedom, steps)
+        solution = solve(start, seen, freedom, steps)
+        if not np.isfinite(solution.cost):  # some corners do not project yet
+            settled = settle_softly(start, seen, freedom).bundle
+            solution = solve(settled, seen, freedom, steps)
         kept = seen.used
     if not np.isfinite(solution.cost):
         raise InputError(

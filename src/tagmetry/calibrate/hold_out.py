@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tagmetry.calibrate.bundle import Freedom, errors_px
+from tagmetry.calibrate.bundle import Bundle, Freedom, errors_px
 from tagmetry.calibrate.fit import Fit
 from tagmetry.calibrate.solve import solve
 from tagmetry.geometry import Array
@@ -16,8 +16,13 @@ _MOST_STEPS = 6  # from the solution of all views; more only go along valleys
 
 def hold_out_px(fit: Fit, most_rounds: int = _MOST_ROUNDS) -> float:
     """Return the root of the mean squared 2-D error over left-out views, weighted by corners."""
-    squares, corners = hold_out_squares_px2(fit, most_rounds), fit.seen.used.sum(axis=1)
-    return float(np.sqrt((squares * corners).sum() / corners.sum()))
+    return pooled_px(hold_out_squares_px2(fit, most_rounds), fit)
+
+
+def pooled_px(squares_px2: Array, fit: Fit) -> float:
+    """Return the root of the mean over all corners of views' mean squared errors (n,)."""
+    corners = fit.seen.used.sum(axis=1)
+    return float(np.sqrt((squares_px2 * corners).sum() / corners.sum()))
 
 
 def hold_out_squares_px2(fit: Fit, most_rounds: int = _MOST_ROUNDS) -> Array:
@@ -39,6 +44,22 @@ def hold_out_squares_px2(fit: Fit, most_rounds: int = _MOST_ROUNDS) -> Array:
 def _squares_without(fit: Fit, group: IntArray) -> Array:
     rest = np.setdiff1d(np.arange(len(fit.seen)), group)
     solved = solve(fit.bundle.only(rest), fit.seen.only(rest), fit.freedom, _MOST_STEPS).bundle
+    return squares_by_own_pose_px2(solved, fit, group)
+
+
+def squares_by_own_pose_px2(solved: Bundle, fit: Fit, group: IntArray) -> Array:
+    """Return each view's mean squared 2-D error by a camera and board, its own pose fitted.
+
+    Args:
+        solved: The camera and the board.
+        fit: Has the views, and poses to start from.
+        group: Which views.
+
+    Returns:
+        Shape (views of the group,), px^2; infinite where the camera does not show the view.
+    """
+    if not solved.is_possible:
+        return np.full(len(group), np.inf)
     left_out, seen = fit.bundle.only(group), fit.seen.only(group)
     start = replace(left_out, intrinsics=solved.intrinsics, p_board=solved.p_board)
     posed = solve(start, seen, Freedom(fit.freedom.basis[:, :0]), _MOST_STEPS).bundle
