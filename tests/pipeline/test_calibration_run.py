@@ -31,12 +31,15 @@ from tagmetry.pipeline.calibration import (
 from tagmetry.pipeline.guided import checked_uncertainty_px, finished_sightings, guided
 from tagmetry.sources import open_source
 from tagmetry.twin import Optics, Scene, Shot, photograph
+from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.scenes import Still, board_thing
-from tagmetry.twin.sensor import Sensor
 
 DATA = Path(os.environ.get("TAGMETRY_DATA", Path(__file__).parents[3] / "shared" / "data"))
 BOARD = Chessboard(9, 6, 0.025)
 TRUTH = Camera(480, 360, (520.0, 520.0), (241.0, 177.5))
+T_FACING = RigidTransform.from_components(
+    [0.0, 0.0, 0.4], Rotation.from_euler("xy", [180, 10], degrees=True)
+)
 
 
 @cache
@@ -133,7 +136,7 @@ def test_of_many_views_those_that_tell_most_are_taken() -> None:
     seen = [look(Image(pixels, source=str(i)), BOARD) for i, pixels in enumerate(rendered(9))]
     run = run_calibration(seen, Request(BOARD, "none", most_views=5))
     assert len(run.calibration.views) == 5
-    assert {one.reason for one in run.rejected} == {"5 other views tell more"}
+    assert {one.reason for one in run.rejected} == {"the 5 views that were taken tell more"}
     names = [int(view.source) for view in run.calibration.views]
     assert names == sorted(names)
 
@@ -178,6 +181,12 @@ def test_a_broken_picture_is_one_that_shows_nothing(tmp_path: Path) -> None:
         results = [one.result for one in sightings(source, BOARD)]
     assert [isinstance(one, BoardView) for one in results] == [True, False, True, False]
     assert "1.png" in results[1].reason
+
+
+def test_a_board_that_never_moves_is_refused_for_that() -> None:
+    seen = [look(Image(_photographed(T_FACING, seed)), BOARD) for seed in range(6)]
+    with pytest.raises(RefusedError, match="at the same tilt"):
+        run_calibration(seen, Request(BOARD, most_views=4))
 
 
 def test_nothing_at_all_is_refused() -> None:

@@ -30,6 +30,7 @@ from tagmetry.pipeline.assessment import Assessment, assess
 from tagmetry.record.calibration_report import CalibrationFacts
 
 MOST_VIEWS = 100  # of a long video, where nothing else was asked for
+_LEAST_VIEWS = 3
 _THUMBNAIL_PX = 240
 _LOOKED_AT = 6  # pictures that the doctor looks at
 
@@ -58,8 +59,10 @@ class Request:
 
     def __post_init__(self) -> None:
         check_measured(self.board, self.measured_m)  # refuses lengths that the board does not have
-        if self.most_views < 3:
-            raise InputError(f"a calibration needs at least 3 views, asked for {self.most_views}")
+        if self.most_views < _LEAST_VIEWS:
+            raise InputError(
+                f"a calibration needs at least {_LEAST_VIEWS} views, asked for {self.most_views}"
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,7 +236,9 @@ def _chosen(
     if len(views) <= most:
         return list(views), ()
     kept = set(most_informative(views, most))
-    reason = f"{most} other views tell more"
+    if len(kept) < _LEAST_VIEWS:  # they are all alike: whoever solves says so
+        return list(views[:most]), ()
+    reason = f"the {len(kept)} views that were taken tell more"
     spare = [RejectedView(v.source, reason) for i, v in enumerate(views) if i not in kept]
     return [view for i, view in enumerate(views) if i in kept], tuple(spare)
 

@@ -12,8 +12,8 @@ from tagmetry.files.board_text import board_text, parse_board
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.twin import Optics, Scene, Shot, photograph
+from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.scenes import Still, board_thing
-from tagmetry.twin.sensor import Sensor
 
 CAMERA = Camera(640, 480, (700.0, 700.0), (319.5, 239.5), BrownLens((-0.1, 0.03, 0.0, 0.0)))
 TILTS = ((25, 40, 10), (20, 160, -15), (30, 280, 5))
@@ -88,6 +88,13 @@ def test_a_chessboard_with_more_corners_than_asked_for_is_counted(asked: str) ->
     advice = told(CHESS, asked)[0]
     assert advice.title in ("other numbers of corners", "only a part of the board is used")
     assert board_text(advice.board) == CHESS
+
+
+def test_few_rows_tell_the_layout_by_the_few_markers_that_wrap() -> None:
+    board = "charuco:9x4:30mm:22mm:4x4_100"
+    advice = told(f"{board}:legacy", board)[0]
+    assert advice.title == "legacy layout"
+    assert board_text(advice.board) == f"{board}:legacy"
 
 
 def test_another_family_is_named_and_the_layout_beside() -> None:

@@ -74,6 +74,11 @@ class Fitting:
     side: float
 
     @property
+    def astray(self) -> int:
+        """How many markers are elsewhere."""
+        return self.seen - self.agreeing
+
+    @property
     def share(self) -> float:
         """Of the markers that agree."""
         return self.agreeing / max(self.seen, 1)

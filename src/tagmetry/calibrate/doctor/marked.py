@@ -20,8 +20,9 @@ from tagmetry.calibrate.doctor.sought import Markers, markers_of, other_family
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import Board, Chessboard
 
-_FITS, _SURELY = 0.85, 0.97  # share of the markers in their places
-_BETTER = 1.08  # times as many markers: a board moved by one place still fits many
+_FITS = 0.85  # share of the markers in their places
+_SOME = 2  # markers out of place
+_BETTER = 0.25  # times as many out of place: in a layout moved by one, few are
 _OTHER_SIZE = 0.04
 _FEW = 4
 
@@ -102,9 +103,9 @@ def _arranged(seen: Sequence[Markers], board: MarkedBoard) -> list[BoardAdvice]:
     asked = fitting(seen, arrangement_of(board))
     if asked.seen == 0:
         return []
-    if asked.share < _SURELY:
+    if asked.astray >= _SOME:
         best = best_fitting(seen, asked.arrangement, _first_ids(seen, board.first_id))
-        if best is not None and best.share >= _FITS and best.agreeing > _BETTER * asked.agreeing:
+        if best is not None and best.share >= _FITS and best.astray <= _BETTER * asked.astray:
             return [_otherwise(asked, best, board)]
     return (_bounds(asked, seen, board) or _sizes(asked, board)) if asked.share >= _FITS else []
 
