@@ -36,7 +36,7 @@ def box(
         (Rotation.from_euler("x", 180, degrees=True), (x_m, y_m, z_m)),
     ]
     sheets = tuple(_side(turn, size, brightness) for turn, size in sides)
-    return Thing(name, sheets, path=path)
+    return Thing(name, sheets, path=path, scenery=True)
 
 
 def clutter(
@@ -58,7 +58,7 @@ def clutter(
         path: Where it is; they face its z more or less.
     """
     sheets = tuple(_paper(np.array(space_m), size_m, rng) for _ in range(count))
-    return Thing(name, sheets, path=path)
+    return Thing(name, sheets, path=path, scenery=True)
 
 
 def _side(turn: Rotation, size_m: tuple[float, float, float], brightness: float) -> Sheet:

@@ -49,7 +49,7 @@ def room(
     things += _boxes(width_m, depth_m)
     lamps = (Lamp(np.array([-1.0, 0.5, 2.5]), 1.3), Lamp(np.array([1.2, -0.4, 2.5]), 1.3))
     path = _round(width_m, depth_m, images / 30)
-    shot = webcam(path, brightness=0.75, exposure_s=0.0)  # blur of walls at hand takes minutes
+    shot = webcam(path, brightness=0.75)
     return Recipe(Scene(tuple(things), Light(0.4, lamps)), shot, images, seed=seed)
 
 
