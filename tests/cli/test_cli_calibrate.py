@@ -18,8 +18,8 @@ from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import Chessboard
 from tagmetry.record import open_overlay
 from tagmetry.twin import Optics, Scene, Shot, photograph
+from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.scenes import Still, board_thing
-from tagmetry.twin.sensor import Sensor
 
 DATA = Path(os.environ.get("TAGMETRY_DATA", Path(__file__).parents[3] / "shared" / "data"))
 BOARD = Chessboard(7, 5, 0.03)
