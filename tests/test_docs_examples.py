@@ -22,6 +22,7 @@ from tagmetry.twin import render
 
 SOURCE = Path(tagmetry.__file__).parents[1]
 EXAMPLES = Path(__file__).parents[1] / "docs" / "examples"
+SCENES = EXAMPLES.parent / "scenes"
 NAMES = sorted(path.name for path in EXAMPLES.iterdir() if path.is_file())
 CAMERA = Camera(1280, 720, (1000.0, 1000.0), (639.5, 359.5), name="example")
 
@@ -50,6 +51,7 @@ WRITTEN = {
     "print_sheet.sh": ("sheet.pdf",),
     "print_walls.sh": ("wall7.pdf", "board.pdf"),
     "rough_camera.py": ("rough.yaml",),
+    "twin_render.sh": ("desk/truth.jsonl", "desk.jsonl"),
 }
 SAID = {
     "board_pose.py": "6 markers, board at",
@@ -59,6 +61,8 @@ SAID = {
     "pose.py": "tag36h11 8: +0.2000 ",
     "read_results.py": "photo.png 7 ",
     "robot_position.py": "camera at [ 4.15",
+    "twin_render.sh": "wrote 3 pictures",
+    "twin_scene.py": "farthest corner: 0.0",
     "wall_body.py": "from 2 markers",
 }
 AFTER = {"read_results.py": "detect.sh", "floor_positions.py": "detect_video.sh"}
@@ -133,6 +137,7 @@ def test_example_runs(name: str, shelf: Path, tmp_path: Path) -> None:
         pytest.importorskip(package, reason=f"{name} needs {package}")
     for file in ("photo.png", "board.png", "camera.yaml"):
         shutil.copy(shelf / file, tmp_path)
+    shutil.copy(SCENES / "desk.yaml", tmp_path)
     if "av" in NEEDS.get(name, []):
         write_video(tmp_path / "video.mp4", photograph(FLOOR, tilt_deg=10, depth_m=1.2))
     if name in AFTER:
