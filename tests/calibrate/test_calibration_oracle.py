@@ -11,6 +11,7 @@ from seen_boards import FISHEYE, USUAL, Truth, board_points, seen, truth, view_o
 from tagmetry.calibrate.fit import Fit, fit_flat, release_shape
 from tagmetry.calibrate.freedom import Wanted
 from tagmetry.calibrate.hold_out import hold_out_px
+from tagmetry.calibrate.leave_out import quick_hold_out_px
 from tagmetry.calibrate.result import Calibration
 from tagmetry.calibrate.sightings import gather
 from tagmetry.calibrate.view import BoardView
@@ -120,12 +121,43 @@ def test_the_principal_point_is_not_as_sure_as_the_formula_says(
 def test_left_out_views_are_shown_as_well_as_by_opencv(real_views: list[BoardView]) -> None:
     flat = fit_flat(gather(real_views), Wanted("brown5"), robust=False)
     assert hold_out_px(flat) == pytest.approx(0.2012, abs=5e-4)
+    assert quick_hold_out_px(flat, 20) == pytest.approx(hold_out_px(flat), rel=2e-3)
 
 
-def test_releasing_the_shape_cuts_the_hold_out_error(real_views: list[BoardView]) -> None:
-    flat: Fit = fit_flat(gather(real_views), Wanted("brown4"), robust=True)
-    free = release_shape(flat, gather(real_views), robust=True)
-    assert hold_out_px(free) < 0.75 * hold_out_px(flat)
+def adaptive_view(path: Path, share: float, *, up: bool = False) -> BoardView:
+    """Return OpenCV's corners, half of the window a share of the least distance of neighbours."""
+    grey = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
+    _, corners = cv2.findChessboardCorners(grey, (9, 6))
+    grid = corners.reshape(6, 9, 2)
+    least = min(np.linalg.norm(np.diff(grid, axis=axis), axis=-1).min() for axis in (0, 1))
+    return real_view(path, int(np.ceil(share * least) if up else share * least))
+
+
+@pytest.fixture(scope="module")
+def adaptive_views(real_views: list[BoardView]) -> list[BoardView]:
+    return [adaptive_view(DATA / "chessboard_opencv" / v.source, 1 / 3) for v in real_views]
+
+
+def test_releasing_the_shape_cuts_the_hold_out_error(adaptive_views: list[BoardView]) -> None:
+    """The notes' figures: 0.183 px when the board counts as flat, 0.124 px by OpenCV's release."""
+    flat: Fit = fit_flat(gather(adaptive_views), Wanted("brown5"), robust=True)
+    free = release_shape(flat, gather(adaptive_views), robust=True)
+    assert hold_out_px(flat) <= 0.183
+    assert hold_out_px(free) <= 0.125
+    assert quick_hold_out_px(free, 20) == pytest.approx(hold_out_px(free), rel=5e-3)
+
+
+@pytest.mark.parametrize("up", [False, True], ids=["floor", "ceil"])
+def test_windows_that_reach_beyond_the_board_are_survived(
+    adaptive_views: list[BoardView], up: bool
+) -> None:
+    """Half of the step and more: OpenCV's focal length is 2.4 and 3.7 % off, ours half an sd."""
+    good = calibrate(adaptive_views, "brown5")
+    folder = DATA / "chessboard_opencv"
+    found = calibrate([adaptive_view(folder / v.source, 0.5, up=up) for v in good.views], "brown5")
+    sd = np.sqrt(good.camera.covariance[0, 0])
+    assert abs(found.camera.focal_px[0] - good.camera.focal_px[0]) < 0.5 * sd
+    assert sum(int((~kept).sum()) for kept in found.kept) > 50
 
 
 def test_four_or_five_coefficients_are_chosen(real_views: list[BoardView]) -> None:
@@ -134,7 +166,7 @@ def test_four_or_five_coefficients_are_chosen(real_views: list[BoardView]) -> No
     assert found.choice.chosen in {"brown4", "brown5"}
     assert min(rows.values(), key=lambda row: row.rms_px).name == "brown14"
     assert found.choice.chosen in found.choice.reason
-    assert any("is a guess" in text for text in found.warnings)
+    assert any("the picture's corners are known to" in text for text in found.warnings)
 
 
 @pytest.mark.parametrize("half_window", [5, 7, 11])

@@ -4,13 +4,15 @@ Wrong rows and columns, a mirrored board and views without tilt all give numbers
 small errors. Each is recognised by what it does to the result.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from tagmetry.calibrate.bundle import Bundle
 from tagmetry.calibrate.fit import Fit
 from tagmetry.calibrate.sightings import Sightings
 from tagmetry.calibrate.start import BoardPlane
-from tagmetry.camera import distortion_reach
+from tagmetry.camera import Camera, distortion_reach
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
@@ -18,6 +20,8 @@ from tagmetry.geometry.arrays import BoolArray
 _LARGEST_ERROR = 0.005  # of the picture's diagonal, robust standard deviation
 _LEAST_TILT_DEG, _SMALL_TILT_DEG = 4.0, 20.0
 _WORST_FOCAL, _POOR_FOCAL = 0.05, 0.005  # standard deviation over focal length
+_SMALL_FOLD = 0.005  # of the picture
+_POOR_CORNER_PX = 1.0
 _LONGEST_FOCAL = 50.0  # half diagonals: 2.3 degrees of view
 
 
@@ -74,8 +78,9 @@ def tilt_spread_deg(bundle: Bundle) -> float:
 def warnings_of(fit: Fit, covariance: Array) -> tuple[str, ...]:
     """Return what to know before trusting a camera, in words."""
     told = []
-    reach = distortion_reach(fit.bundle.camera(fit.seen.size_px))
-    if not reach.is_monotonic:
+    camera = replace(fit.bundle.camera(fit.seen.size_px), covariance=covariance)
+    reach = distortion_reach(camera)
+    if reach.covered_share < 1 - _SMALL_FOLD:
         told.append(
             f"the distortion folds back over {1 - reach.covered_share:.1%} of the picture: "
             f"nothing can be measured there"
@@ -85,12 +90,32 @@ def warnings_of(fit: Fit, covariance: Array) -> tuple[str, ...]:
         told.append(f"the focal length is known to {share:.1%} only; add views with more tilt")
     if (tilts := tilt_spread_deg(fit.bundle)) < _SMALL_TILT_DEG:
         told.append(f"the board's tilt varies by {tilts:.0f} degrees only; tilt it by 20 to 45")
-    if (covered := _covered_radius(fit.seen)) < 0.9:
+    if (sd_px := corner_sd_px(camera)) > _POOR_CORNER_PX:
         told.append(
-            f"no corner lies beyond {covered:.0%} of the way to the picture's corners: the "
-            f"distortion out there is a guess"
+            f"the picture's corners are known to {sd_px:.1f} px only, as no corner of the board "
+            f"lies beyond {_covered_radius(fit.seen):.0%} of the way there"
         )
     return tuple(told)
+
+
+def corner_sd_px(camera: Camera) -> float:
+    """Return the largest standard deviation along any direction at the picture's four corners.
+
+    A camera that is turned a little shows nearly what one with another centre shows, and no board
+    tells them apart. So the camera is turned until its centre stays: what is left is the lens.
+    Corners beyond the fold of the lens do not count.
+    """
+    u, v = camera.width_px - 1.0, camera.height_px - 1.0
+    rays = camera.unproject(np.array([[0.0, 0.0], [u, 0.0], [u, v], [0.0, v]]))
+    rays = rays[np.isfinite(rays).all(axis=-1)]
+    _, by_point = camera.project_with_jacobian(rays)
+    by_turn = [by_point @ np.cross(axis, rays)[..., None] for axis in np.eye(3)[:2]]
+    jacobian = camera.parameter_jacobian(rays).copy()
+    (fx, fy), about_x, about_y = camera.focal_px, *by_turn
+    jacobian[..., 2] -= about_y[..., 0] / fx  # a turn by 1 / fx about y moves the centre by 1 px
+    jacobian[..., 3] += about_x[..., 0] / fy
+    spread = jacobian @ np.asarray(camera.covariance) @ np.swapaxes(jacobian, -1, -2)
+    return float(np.sqrt(np.linalg.eigvalsh(spread).max(initial=0.0)))
 
 
 def _robust_error_px(fit: Fit) -> float:

@@ -109,8 +109,8 @@ def _level(scores: Array, parts: Array, s2: float) -> float:
     """Return the scores' mean variance over the directions, drawn to s^2 and not below it."""
     c = scores.shape[1]
     beyond = float((scores**2).sum()) / c - s2
-    scatter = 2 * (parts**2).sum() * (s2 / c) ** 2  # of a sum of squares of normal numbers
-    return s2 + max((1 - _share(scatter, beyond**2)) * beyond, 0.0)
+    scatter = 2 * float((parts**2).sum()) * (s2 / c) ** 2  # of a sum of squares of normal numbers
+    return float(s2 + max((1 - _share(scatter, beyond**2)) * beyond, 0.0))
 
 
 def _share(scatter: float, squared: float) -> float:

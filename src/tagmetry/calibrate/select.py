@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tagmetry.calibrate.bundle import errors_px
+from tagmetry.calibrate.bundle import Bundle, errors_px
 from tagmetry.calibrate.choice import LENS_NAMES, LensName, ModelChoice, ModelRow
-from tagmetry.calibrate.fit import Fit, begin, fit_flat, refit
+from tagmetry.calibrate.fit import Fit, fit_flat, refit
 from tagmetry.calibrate.freedom import Wanted
 from tagmetry.calibrate.hold_out import hold_out_px
+from tagmetry.calibrate.leave_out import quick_hold_out_px
 from tagmetry.calibrate.sightings import Sightings
 from tagmetry.calibrate.translate import as_rational
 from tagmetry.camera import distortion_reach
@@ -27,6 +28,7 @@ _FAR_SLACK, _HOLD_OUT_SLACK = 1.15, 1.01
 _ROUNDS = 8  # of leaving views out, for each of nine models
 _MOST_STEPS = 30
 _MONOTONIC_SLACK = 0.005
+_CREDIBLE = 1.5  # times the error on fitted corners: a quick hold-out error beyond is looked into
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,11 +44,11 @@ class Selected:
     choice: ModelChoice
 
 
-def general_fit(seen: Sightings, wanted: Wanted, *, robust: bool) -> Fit:
-    """Return the better of the five-coefficient lens and the fisheye.
+def general_fits(seen: Sightings, wanted: Wanted, *, robust: bool) -> tuple[Fit, ...]:
+    """Return the fits of the five-coefficient lens and the fisheye, the better first.
 
-    It says which corners and views fit at all: a model that fits badly must not win by dropping
-    corners.
+    The first says which corners and views fit at all: a model that fits badly must not win by
+    dropping corners. A model that no start leads to is missing.
     """
     fits = []
     for lens in _GENERAL:
@@ -56,11 +58,11 @@ def general_fit(seen: Sightings, wanted: Wanted, *, robust: bool) -> Fit:
             refusal = error
     if not fits:
         raise refusal
-    return min(fits, key=lambda fit: fit.scale)
+    return tuple(sorted(fits, key=lambda fit: fit.scale))
 
 
-def select_model(general: Fit, wanted: Wanted) -> Selected:
-    """Return the lens model that the corners of a general fit support."""
+def select_model(general: tuple[Fit, ...], wanted: Wanted) -> Selected:
+    """Return the lens model that the corners of the best general fit support."""
     fits = _fits(general, wanted)
     rows = {name: _row(name, fit) for name, fit in fits.items()}
     finalists = _finalists(list(rows.values()))
@@ -69,37 +71,30 @@ def select_model(general: Fit, wanted: Wanted) -> Selected:
     return Selected(fits[chosen.name], ModelChoice(chosen.name, told, _reason(chosen, finalists)))
 
 
-def _fits(general: Fit, wanted: Wanted) -> dict[LensName, Fit]:
+def _fits(general: tuple[Fit, ...], wanted: Wanted) -> dict[LensName, Fit]:
     """Return every model's fit to the same corners; a model that no start leads to is missing."""
     fits: dict[LensName, Fit] = {}
     for name in LENS_NAMES:
         kind = replace(wanted, lens=name)
-        try:
-            fits[name] = _refitted(general, fits, kind)
-        except InputError:
-            continue
+        fitted = []
+        for start in _starts(general, fits, kind):
+            try:
+                fitted.append(refit(start, general[0].seen, kind, robust=False, steps=_MOST_STEPS))
+            except InputError:
+                continue
+        if fitted:
+            fits[name] = min(fitted, key=lambda fit: fit.scale)
     return fits
 
 
-def _refitted(general: Fit, fits: dict[LensName, Fit], kind: Wanted) -> Fit:
-    """Return the best fit of one lens from the starts there are; larger lenses from smaller."""
-    before = [fit.bundle for fit in fits.values() if fit.bundle.kind == kind.kind]
-    starts = before[-1:] if kind.coefficients > 5 else []
-    if kind.coefficients >= 8 and general.bundle.kind == "fisheye":
-        starts = [as_rational(general.bundle, kind.coefficients, _farthest_rad(general))]
-    elif general.bundle.kind != kind.kind:
-        starts = [*starts, begin(general.seen, kind)]
-    elif not starts:
-        starts = [general.bundle]
-    fitted = []
-    for start in starts:
-        try:
-            fitted.append(refit(start, general.seen, kind, robust=False, steps=_MOST_STEPS))
-        except InputError as error:
-            refusal = error
-    if not fitted:
-        raise refusal
-    return min(fitted, key=lambda fit: fit.scale)
+def _starts(general: tuple[Fit, ...], fits: dict[LensName, Fit], kind: Wanted) -> list[Bundle]:
+    """Return where to begin: the general fit of the kind, or the next smaller lens."""
+    best = general[0]
+    if kind.coefficients >= 8 and best.bundle.kind == "fisheye":
+        return [as_rational(best.bundle, kind.coefficients, _farthest_rad(best))]
+    if kind.coefficients > 5:
+        return [fit.bundle for fit in fits.values()][-1:]
+    return [fit.bundle for fit in general if fit.bundle.kind == kind.kind]
 
 
 def _farthest_rad(fit: Fit) -> float:
@@ -109,18 +104,30 @@ def _farthest_rad(fit: Fit) -> float:
 
 
 def _row(name: LensName, fit: Fit) -> ModelRow:
-    squares = (errors_px(fit.bundle, fit.seen) ** 2).sum()
-    count = fit.seen.corner_count
     reach = distortion_reach(fit.bundle.camera(fit.seen.size_px))
     return ModelRow(
         name=name,
         parameters=fit.freedom.count,
-        rms_px=float(np.sqrt(squares / count)),
-        hold_out_px=hold_out_px(fit, _ROUNDS),
+        rms_px=_rms_px(fit),
+        hold_out_px=_hold_out_px(fit),
         bic=bayesian_information(fit),
         monotonic_share=reach.covered_share,
         verdict="",
     )
+
+
+def _hold_out_px(fit: Fit) -> float:
+    """Return the error on left-out views, solved in full where one step does not tell it.
+
+    A lens with more coefficients than the views support goes far along its valleys in one step.
+    """
+    found_px = quick_hold_out_px(fit, _ROUNDS)
+    return found_px if found_px < _CREDIBLE * _rms_px(fit) else hold_out_px(fit, _ROUNDS)
+
+
+def _rms_px(fit: Fit) -> float:
+    squares = (errors_px(fit.bundle, fit.seen) ** 2).sum()
+    return float(np.sqrt(squares / fit.seen.corner_count))
 
 
 def bayesian_information(fit: Fit) -> float:

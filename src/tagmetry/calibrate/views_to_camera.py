@@ -25,7 +25,7 @@ from tagmetry.calibrate.covariance import Covariances, covariances
 from tagmetry.calibrate.fit import Fit, fit_flat, release_shape
 from tagmetry.calibrate.freedom import Wanted
 from tagmetry.calibrate.result import Calibration
-from tagmetry.calibrate.select import general_fit, select_model
+from tagmetry.calibrate.select import general_fits, select_model
 from tagmetry.calibrate.sightings import Sightings, gather
 from tagmetry.calibrate.usable import LEAST_CORNERS, check_enough, check_flat, usable_views
 from tagmetry.calibrate.view import BoardView, RejectedView
@@ -64,11 +64,11 @@ def calibrate(
     usable, unusable = usable_views(views)
     choose = model == "auto"
     wanted = Wanted("brown5" if model == "auto" else model, fix_aspect, fix_center)
-    used, fit, misfits = _views_that_fit(usable, wanted, choose=choose, robust=robust)
-    check_fits(fit)
-    check_tilts(fit.bundle)
-    selected = select_model(fit, wanted) if choose else None
-    fit = selected.fit if selected else fit
+    used, fits, misfits = _views_that_fit(usable, wanted, choose=choose, robust=robust)
+    check_fits(fits[0])
+    check_tilts(fits[0].bundle)
+    selected = select_model(fits, wanted) if choose else None
+    fit = selected.fit if selected else fits[0]
     if shape == "free":
         fit = release_shape(fit, gather(used), robust=robust)
     return _result(fit, used, unusable + misfits, selected.choice if selected else None)
@@ -76,17 +76,20 @@ def calibrate(
 
 def _views_that_fit(
     views: tuple[BoardView, ...], wanted: Wanted, *, choose: bool, robust: bool
-) -> tuple[tuple[BoardView, ...], Fit, tuple[RejectedView, ...]]:
-    """Return the views that one camera shows, its fit, and the other views with the reason."""
+) -> tuple[tuple[BoardView, ...], tuple[Fit, ...], tuple[RejectedView, ...]]:
+    """Return the views that one camera shows, its fits, and the other views with the reason."""
     rejected: tuple[RejectedView, ...] = ()
     while True:
         check_enough(len(views), rejected)
         seen = gather(views)
         check_flat(seen.p_board)
-        fit = (general_fit if choose else fit_flat)(seen, wanted, robust=robust)
-        faults = _faults(fit, seen)
+        if choose:
+            fits = general_fits(seen, wanted, robust=robust)
+        else:
+            fits = (fit_flat(seen, wanted, robust=robust),)
+        faults = _faults(fits[0], seen)
         if not any(faults):
-            return views, fit, rejected
+            return views, fits, rejected
         pairs = list(zip(views, faults, strict=True))
         rejected += tuple(RejectedView(view.source, fault) for view, fault in pairs if fault)
         views = tuple(view for view, fault in pairs if not fault)
