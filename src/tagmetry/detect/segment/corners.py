@@ -1,0 +1,136 @@
+"""Four lines along an outline, and the corners where they meet.
+
+The outline's point farthest from its middle is a corner, and so is the one farthest from that. The
+other two are where the outline strays farthest from the lines between those found already. It has
+four sides if it strays nowhere far from the lines between the four. Each side is then fitted to the
+points between its corners, their ends left out.
+"""
+
+import numpy as np
+from numba import njit
+
+from tagmetry.geometry.arrays import Array
+
+_STRAIGHT = 0.04  # how far an outline may stray from four lines, as a share of its length
+_STRAIGHT_PX = 1.0
+_LEAST_ANGLE_SINE = 0.2
+
+
+@njit(cache=True, nogil=True)
+def four_corners(points: Array, outset_px: float, corners: Array) -> bool:
+    """Write the corners of an outline with four sides; say whether it has four.
+
+    Args:
+        points: Closed, clockwise as seen, shape (n, 2).
+        outset_px: How far outside the outline the sides are.
+        corners: For the result, clockwise as seen, shape (4, 2).
+    """
+    indices = np.empty(5, np.int64)
+    if not _four_far_points(points, indices[:4]):
+        return False
+    indices[4] = indices[0] + len(points)
+    lines = np.empty((4, 4))
+    for side in range(4):
+        if indices[side + 1] - indices[side] < 4:
+            return False
+        _fit_line(points, indices[side], indices[side + 1], outset_px, lines[side])
+    return _meet(lines, corners)
+
+
+@njit(cache=True, nogil=True)
+def _four_far_points(points: Array, indices: Array) -> bool:
+    """Write the indices of the four corners in order; say whether four describe the outline."""
+    n = len(points)
+    middle_x, middle_y = points[:, 0].mean(), points[:, 1].mean()
+    begin = _farthest(points, middle_x, middle_y)
+    indices[:] = begin + n
+    indices[0] = begin
+    indices[1] = _farthest(points, points[begin, 0], points[begin, 1])
+    if indices[1] < begin:
+        indices[1] += n
+    stray = np.empty(4)
+    at = np.empty(4, np.int64)
+    for known in range(2, 5):
+        for k in range(known):
+            end = indices[k + 1] if k + 1 < known else begin + n
+            stray[k], at[k] = _strays(points, indices[k], end)
+        worst = stray[:known].argmax()
+        if known == 4:
+            return stray[worst] <= max(_STRAIGHT_PX, _STRAIGHT * _way_around(points, indices))
+        for k in range(known, worst + 1, -1):
+            indices[k] = indices[k - 1]
+        indices[worst + 1] = at[worst]
+    return False
+
+
+@njit(cache=True, nogil=True)
+def _farthest(points: Array, x: float, y: float) -> int:
+    best, farthest2 = 0, -1.0
+    for i in range(len(points)):
+        distance2 = (points[i, 0] - x) ** 2 + (points[i, 1] - y) ** 2
+        if distance2 > farthest2:
+            best, farthest2 = i, distance2
+    return best
+
+
+@njit(cache=True, nogil=True)
+def _strays(points: Array, begin: int, end: int) -> tuple[float, int]:
+    """Return how far the outline strays from the chord between two of its points, and where."""
+    n = len(points)
+    from_x, from_y = points[begin % n]
+    along_x, along_y = points[end % n, 0] - from_x, points[end % n, 1] - from_y
+    length = max(np.hypot(along_x, along_y), 1e-9)
+    worst, at = -1.0, begin
+    for i in range(begin, end):
+        j = i if i < n else i - n
+        across = (points[j, 0] - from_x) * along_y - (points[j, 1] - from_y) * along_x
+        if abs(across) > worst:
+            worst, at = abs(across), i
+    return worst / length, at
+
+
+@njit(cache=True, nogil=True)
+def _way_around(points: Array, indices: Array) -> float:
+    n, way = len(points), 0.0
+    for k in range(4):
+        a, b = points[indices[k] % n], points[indices[(k + 1) % 4] % n]
+        way += np.hypot(b[0] - a[0], b[1] - a[1])
+    return way
+
+
+@njit(cache=True, nogil=True)
+def _fit_line(points: Array, begin: int, end: int, outset_px: float, line: Array) -> None:
+    """Write (point, unit direction) of the least-squares line between two corners."""
+    n = len(points)
+    trim = (end - begin) // 8
+    count = end - begin - 2 * trim
+    sx = sy = sxx = sxy = syy = 0.0
+    from_x, from_y = points[begin % n]
+    for i in range(begin + trim, end - trim):
+        j = i if i < n else i - n
+        x, y = points[j, 0] - from_x, points[j, 1] - from_y
+        sx, sy = sx + x, sy + y
+        sxx, sxy, syy = sxx + x * x, sxy + x * y, syy + y * y
+    sx, sy = sx / count, sy / count
+    angle = 0.5 * np.arctan2(2 * (sxy / count - sx * sy), sxx / count - sx * sx - syy / count + sy * sy)
+    along_x, along_y = np.cos(angle), np.sin(angle)
+    chord_x, chord_y = points[end % n, 0] - from_x, points[end % n, 1] - from_y
+    if along_x * chord_x + along_y * chord_y < 0:
+        along_x, along_y = -along_x, -along_y
+    # clockwise as seen with y down: outward is (along_y, -along_x)
+    line[0], line[1] = from_x + sx + outset_px * along_y, from_y + sy - outset_px * along_x
+    line[2], line[3] = along_x, along_y
+
+
+@njit(cache=True, nogil=True)
+def _meet(lines: Array, corners: Array) -> bool:
+    """Write where each line meets the one before it; say whether they turn right every time."""
+    for k in range(4):
+        ax, ay, ux, uy = lines[k - 1]
+        bx, by, vx, vy = lines[k]
+        sine = ux * vy - uy * vx
+        if sine < _LEAST_ANGLE_SINE:
+            return False
+        along = ((bx - ax) * vy - (by - ay) * vx) / sine
+        corners[k, 0], corners[k, 1] = ax + along * ux, ay + along * uy
+    return True

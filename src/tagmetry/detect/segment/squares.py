@@ -1,0 +1,85 @@
+"""Dark or bright squares of any size: looks at the image itself, at half and at double its scale.
+
+Half the scale halves the noise and costs a quarter: large markers are found there. Small ones need
+every pixel, the smallest are seen better between the pixels. Each scale looks with low, middle and
+high levels of dark: borders that touch dim clutter need a low one, faint borders a high one.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from tagmetry.detect.segment.look import Look, Tiled, dark_squares
+from tagmetry.geometry.arrays import Array, BoolArray, GreyPixels
+
+_FULL_BELOW_PX = 32.0  # the full image is looked at where sides may be shorter than this
+_DOUBLE_BELOW_PX = 10.0
+_LEAST_IMAGE_PX = 8
+_LEVELS = Look(0.35), Look(0.5), Look(0.7)
+_THIN = Look(0.5, thinned=True)
+
+
+@dataclass(frozen=True, eq=False)
+class Squares:
+    """Outlines with four sides; the same square again where several looks saw it.
+
+    Attributes:
+        corners_px: Clockwise as seen, pixel centres at integers, shape (n, 4, 2).
+        is_bright: Whether the inside is brighter than the outside, shape (n,).
+    """
+
+    corners_px: Array
+    is_bright: BoolArray
+
+
+def squares(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
+    """Return outlines with four sides; a square once for each look that saw it.
+
+    Args:
+        grey: 8-bit image.
+        min_side_px: Sides shorter than this are passed over.
+        bright: Bright squares on dark as well.
+    """
+    dark_px = np.concatenate(list(_looks(grey, min_side_px)))
+    if not bright:
+        return Squares(dark_px, np.zeros(len(dark_px), dtype=bool))
+    bright_px = np.concatenate(list(_looks(np.asarray(255 - grey, dtype=np.uint8), min_side_px)))
+    is_bright = np.repeat([False, True], [len(dark_px), len(bright_px)])
+    return Squares(np.concatenate([dark_px, bright_px]), is_bright)
+
+
+def _looks(grey: GreyPixels, min_side_px: float) -> Iterator[Array]:
+    """Give the dark squares of each look, pixels of the image."""
+    yield np.empty((0, 4, 2))
+    for scale, looks in _plan(min_side_px).items():
+        image = _scaled(grey, scale)
+        if min(image.shape) >= _LEAST_IMAGE_PX:
+            tiled = Tiled.of(image)
+            for look in looks:
+                corners = dark_squares(tiled, look, scale * min_side_px)
+                yield (corners + 0.5) / scale - 0.5
+
+
+def _plan(min_side_px: float) -> dict[float, tuple[Look, ...]]:
+    """Return the looks at each scale."""
+    plan = {0.5: _LEVELS, 1.0: (*_LEVELS, _THIN), 2.0: _LEVELS}
+    if min_side_px >= _FULL_BELOW_PX:
+        return {0.5: (*_LEVELS, _THIN)}
+    if min_side_px >= _DOUBLE_BELOW_PX:
+        del plan[2.0]
+    return plan
+
+
+def _scaled(grey: GreyPixels, scale: float) -> GreyPixels:
+    """Return the image at half, its own or double scale; half drops an odd last row or column."""
+    if scale == 1.0:
+        return grey
+    height, width = grey.shape
+    if scale > 1.0:
+        size, method = (2 * width, 2 * height), cv2.INTER_CUBIC
+        return np.asarray(cv2.resize(grey, size, interpolation=method), dtype=np.uint8)
+    whole = grey[: height // 2 * 2, : width // 2 * 2]
+    size = (width // 2, height // 2)
+    return np.asarray(cv2.resize(whole, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
