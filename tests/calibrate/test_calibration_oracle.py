@@ -144,7 +144,7 @@ def test_releasing_the_shape_cuts_the_hold_out_error(adaptive_views: list[BoardV
     free = release_shape(flat, gather(adaptive_views), robust=True)
     assert hold_out_px(flat) <= 0.183
     assert hold_out_px(free) <= 0.125
-    assert quick_hold_out_px(free, 20) == pytest.approx(hold_out_px(free), rel=5e-3)
+    assert quick_hold_out_px(free, 20) == pytest.approx(hold_out_px(free), rel=1e-3)
 
 
 @pytest.mark.parametrize("up", [False, True], ids=["floor", "ceil"])
@@ -166,6 +166,7 @@ def test_four_or_five_coefficients_are_chosen(real_views: list[BoardView]) -> No
     assert found.choice.chosen in {"brown4", "brown5"}
     assert min(rows.values(), key=lambda row: row.rms_px).name == "brown14"
     assert found.choice.chosen in found.choice.reason
+    assert rows["brown14"].hold_out_px < 1.0  # 6 px by one step along its valley
     assert any("the picture's corners are known to" in text for text in found.warnings)
 
 

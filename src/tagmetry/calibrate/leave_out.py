@@ -26,7 +26,7 @@ from tagmetry.geometry.arrays import IntArray
 def quick_hold_out_px(fit: Fit, most_rounds: int) -> float:
     """Return about what `hold_out_px` returns; infinite where the others decide nothing."""
     linear = linearise(fit.bundle, fit.seen, fit.freedom)
-    information, gradient = _of_all(fit, linear)
+    information, gradient = information_of_all(fit, linear)
     n = len(fit.seen)
     rounds = min(n, most_rounds)
     squares = np.full(n, np.inf)
@@ -44,8 +44,12 @@ def _of_views(fit: Fit, linear: Linear, views: IntArray) -> tuple[Array, Array]:
     return eliminate_poses(normal_equations(linear.only(views), weights, fit.freedom))
 
 
-def _of_all(fit: Fit, linear: Linear) -> tuple[Array, Array]:
-    """Return the same of all views, with what is believed of the board's shape."""
+def information_of_all(fit: Fit, linear: Linear) -> tuple[Array, Array]:
+    """Return what all views know of the shared numbers, with what is believed of the shape.
+
+    Returns:
+        Information (m, m) and gradient (m,); at a solution the gradient is zero.
+    """
     information, gradient = _of_views(fit, linear, np.arange(len(fit.seen)))
     if fit.freedom.shape_sd_m is None:
         return information, gradient
