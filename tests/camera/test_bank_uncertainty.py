@@ -32,29 +32,34 @@ def noisy_bank(foci: Array, covariances: list[Array], rng: np.random.Generator) 
     return CameraBank(tuple(map(BankNode, cameras)))
 
 
-def covered(bank: CameraBank, focus: float) -> tuple[float, bool]:
-    """Return the share of pixels, and whether all parameters, inside their 95 % regions."""
+def squared_distances(bank: CameraBank, focus: float) -> tuple[Array, float]:
+    """Return Mahalanobis distances squared of the pixels, shape (n,), and of all parameters."""
     camera, truth = bank.camera_at(focus=focus), breathing(focus)
     by_parameters = camera.parameter_jacobian(truth.unproject(pixels()))
     spread = by_parameters @ np.asarray(camera.covariance) @ by_parameters.swapaxes(-1, -2)
     error = error_px(camera, truth)
     distance = np.einsum("ni,nij,nj->n", error, np.linalg.inv(spread), error)
     off = numbers(camera) - numbers(truth)
-    whole = off @ np.linalg.solve(np.asarray(camera.covariance), off)
-    return float((distance < chi2.ppf(0.95, 2)).mean()), bool(whole < chi2.ppf(0.95, len(off)))
+    return distance, float(off @ np.linalg.solve(np.asarray(camera.covariance), off))
 
 
 @pytest.mark.parametrize(
     ("step", "trials", "foci_each"),
     [
-        pytest.param(5.0, 15, 10, marks=pytest.mark.slow),
-        (15.0, 10, 5),
-        pytest.param(30.0, 60, 2, marks=pytest.mark.slow),
+        pytest.param(5.0, 60, 15, marks=pytest.mark.slow),
+        (15.0, 12, 4),
+        pytest.param(15.0, 200, 5, marks=pytest.mark.slow),
+        pytest.param(30.0, 200, 4, marks=pytest.mark.slow),
     ],
 )
 def test_the_stated_region_holds_the_truth(step: float, trials: int, foci_each: int) -> None:
-    """31 calibrations as in seed 000, and fewer; foci at, near and midway between them."""
-    rng = np.random.default_rng(11)
+    """31 calibrations as in seed 000, and fewer; foci at, near and midway between them.
+
+    The foci of one trial share calibrations, so the trials are what is counted. Bounds are three
+    standard deviations of a mean over them, and 2 % for what is second order. Of 1 000 foci 15
+    steps apart 95.6 % (pixels) and 95.3 % (parameters) were inside.
+    """
+    rng = np.random.default_rng(5)
     foci = np.arange(0.0, 151.0, step)
     covariances = [covariance_of(breathing(focus)) for focus in foci]
     found = []
@@ -62,10 +67,20 @@ def test_the_stated_region_holds_the_truth(step: float, trials: int, foci_each: 
         bank = noisy_bank(foci, covariances, rng)
         low = rng.choice(foci[:-1], foci_each, replace=False)
         asked = low + step * rng.choice([0.2, 0.5, 0.9], foci_each)
-        found += [covered(bank, focus) for focus in asked]
-    in_image, whole = np.mean(found, axis=0)
-    assert 0.90 < in_image < 0.985
-    assert 0.87 < whole < 0.995
+        found.append(np.mean([shares(*squared_distances(bank, focus)) for focus in asked], axis=0))
+    mean, margin = np.mean(found, axis=0), 0.02 + 3 * np.array(_TRIAL_SD) / np.sqrt(trials)
+    expected = np.array([0.95, 0.95, 1.0, 1.0])
+    assert (np.abs(mean - expected) < margin).all(), (mean, margin)
+
+
+_TRIAL_SD = (0.1, 0.11, 0.5, 0.3)  # of one trial's means, as measured over 40 to 200 trials
+
+
+def shares(pixel_squares: Array, all_squares: float) -> tuple[float, float, float, float]:
+    """Return the shares inside of the 95 % regions and the mean squares per degree of freedom."""
+    inside = float((pixel_squares < chi2.ppf(0.95, 2)).mean())
+    whole = float(all_squares < chi2.ppf(0.95, 9))
+    return inside, whole, float(pixel_squares.mean() / 2), all_squares / 9
 
 
 def sharply_bent(focus: float) -> tuple[float, float]:
