@@ -1,6 +1,6 @@
 """What one picture tells about a board: the values that finding makes and solving takes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -50,14 +50,16 @@ class BoardView:
         return self.width_px, self.height_px
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RejectedView:
     """A picture that takes no part in a calibration, and why.
 
     Attributes:
-        source: The picture's path or place in a video.
+        source: The picture's path or place in a video, for people.
         reason: What is wrong with it, in words.
+        seen_px: Points of the board that were seen all the same, shape (n, 2).
     """
 
     source: str
     reason: str
+    seen_px: Array = field(default_factory=lambda: np.zeros((0, 2)))

@@ -161,8 +161,7 @@ def sightings(images: Iterable[Image], board: Board) -> Iterator[Sighting]:
 def look(image: Image, board: Board) -> Sighting:
     """Return what a picture shows of a board."""
     place = image.source if image.time_kind == "none" else f"{image.source} [{image.sequence}]"
-    found = find_board(image.pixels, board, source=place)
-    result = found if isinstance(found, BoardView) else RejectedView(found.source, found.reason)
+    result = find_board(image.pixels, board, source=place)
     return Sighting(result, thumbnail(image.pixels), image.pixels)
 
 

@@ -4,6 +4,8 @@ import cv2
 import numpy as np
 import pytest
 from rendered_boards import picture
+from scipy.optimize import least_squares
+from scipy.special import erf
 
 from tagmetry.calibrate.targets.circles import perspective_bias_px
 from tagmetry.calibrate.targets.corners import refined
@@ -31,6 +33,41 @@ def test_a_guess_off_by_a_pixel_leads_to_the_same_corner() -> None:
         fitted = fit_saddles(shown.pixels, off, along, down)
         assert fitted.is_saddle.all()
         assert np.abs(fitted.centres_px - exact.centres_px).max() < 0.02
+
+
+def fitted_by_scipy(pixels: np.ndarray, guess: Array, step_px: float) -> Array:
+    """Return the crossing of two edges along rows and columns, of derivatives by differences."""
+    half = int(step_px / 3)
+    column, row = np.rint(guess).astype(int)
+    patch = pixels[row - half : row + half + 1, column - half : column + half + 1].astype(float)
+    y, x = np.mgrid[-half : half + 1, -half : half + 1]
+
+    def residuals(unknowns: Array) -> Array:
+        cx, cy, turn1, turn2, blur, mean, contrast = unknowns
+        edges = [
+            erf(((x - cx) * np.cos(turn) + (y - cy) * np.sin(turn)) / (np.sqrt(2) * blur))
+            for turn in (turn1, turn2)
+        ]
+        return (mean + contrast * edges[0] * edges[1] - patch).ravel()
+
+    sign = 1.0 if patch[:half, :half].mean() > patch.mean() else -1.0
+    start = [*(guess - [column, row]), np.pi / 2, 0.0, 1.0, patch.mean(), sign * 60]
+    return least_squares(residuals, start).x[:2] + np.array([column, row])
+
+
+def test_it_is_the_least_squares_fit_of_a_solver_that_is_not_ours() -> None:
+    shown = picture(BOARD, spacing_px=28.0, tilt_deg=0.0, roll_deg=0.0, noise=3.0)
+    along, down = steps(shown.truth_px)
+    ours = fit_saddles(shown.pixels, shown.truth_px, along, down).centres_px
+    theirs = [fitted_by_scipy(shown.pixels, guess, 28.0) for guess in shown.truth_px[::6]]
+    assert np.abs(ours[::6] - theirs).max() < 0.01  # the windows differ by a row of pixels
+
+
+def test_steps_that_span_no_window_give_no_corner() -> None:
+    shown = picture(BOARD)
+    step = np.array([[20.0, 5.0]])
+    for other in (step, 2 * step, 0 * step):
+        assert not fit_saddles(shown.pixels, shown.truth_px[:1], step, other).is_saddle.any()
 
 
 def test_it_is_closer_than_opencv_s() -> None:

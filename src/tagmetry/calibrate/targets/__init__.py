@@ -1,13 +1,9 @@
 """Boards in pictures: which points of a board a picture shows, where, and how certain."""
 
-from tagmetry.calibrate.targets.find import (
-    BoardFindings,
-    RejectedView,
-    explain_board,
-    find_board,
-)
+from tagmetry.calibrate.targets.find import BoardFindings, explain_board, find_board
 from tagmetry.calibrate.targets.found import DroppedPoint
 from tagmetry.calibrate.targets.quality import QualityLimits, ViewQuality, view_quality
+from tagmetry.calibrate.view import RejectedView
 
 __all__ = [
     "BoardFindings",

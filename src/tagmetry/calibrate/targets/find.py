@@ -1,6 +1,6 @@
 """Find a board in a picture, whatever board it is, and say why where it is not found."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,33 +10,15 @@ from tagmetry.calibrate.targets.circles import find_circles
 from tagmetry.calibrate.targets.found import DroppedPoint, Found, NotFound
 from tagmetry.calibrate.targets.grids import find_aprilgrid, find_grid
 from tagmetry.calibrate.targets.quality import QualityLimits, ViewQuality, view_quality
-from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.view import BoardView, RejectedView
 from tagmetry.detect.grey import SMALLEST_SIDE_PX, grey_8bit
 from tagmetry.errors import InputError
-from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import AnyPixels, GreyPixels
 from tagmetry.markers import AprilGrid, Board, CharucoBoard, Chessboard, CircleGrid, GridBoard
 
 LEAST_POINTS = 6
 _LEAST_WIDTH = 0.02  # of a line of points: its width by its length
 _LIMITS = QualityLimits()
-
-
-@dataclass(frozen=True, eq=False)
-class RejectedView:
-    """A picture that tells nothing about the board.
-
-    Attributes:
-        source: The picture's path or place in a video, for people.
-        reason: Why it cannot be used, in words.
-        seen_px: Points of the board that were seen all the same, shape (n, 2).
-        quality: What the picture is like around the points, where enough were seen.
-    """
-
-    source: str
-    reason: str
-    seen_px: Array = field(default_factory=lambda: np.zeros((0, 2)))
-    quality: ViewQuality | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +79,7 @@ def explain_board(
     view = _view(grey, board, found, source)
     quality = view_quality(grey, view)
     if (reason := limits.refusal(quality)) is not None:
-        rejected = RejectedView(source, reason, found.corners_px, quality)
+        rejected = RejectedView(source, reason, found.corners_px)
         return BoardFindings(rejected, found.dropped, quality)
     return BoardFindings(view, found.dropped, quality)
 

@@ -17,6 +17,7 @@ from tagmetry.geometry.arrays import AnyPixels, GreyPixels, IntArray
 
 _SMOOTH_PX = 0.8
 _LARGEST_PATCH_PX = 24
+_MARGIN_PX = _LARGEST_PATCH_PX + 5  # what smoothing and the gradient reach
 _BURNT = 254
 _MOST_POINTS = 150
 _NEIGHBOURS = 4
@@ -97,10 +98,11 @@ def view_quality(image: AnyPixels, view: BoardView) -> ViewQuality:
     some = _some(len(view.points))
     spacing_px = _spacings_px(view.corners_px)[some]
     normals = _edge_normals(view)
-    gradient = _gradient(grey)
+    near, origin_px = _cut_out(grey, view.corners_px)
+    gradient = _gradient(near)
     patches = [
-        _Patch.around(grey, gradient, centre, 0.5 * spacing)
-        for centre, spacing in zip(view.corners_px[some], spacing_px, strict=True)
+        _Patch.around(near, gradient, centre, 0.5 * spacing)
+        for centre, spacing in zip(view.corners_px[some] - origin_px, spacing_px, strict=True)
     ]
     blurs_px = np.median([[patch.blur_px(n) for n in normals] for patch in patches], axis=0)
     return ViewQuality(
@@ -115,10 +117,11 @@ def view_quality(image: AnyPixels, view: BoardView) -> ViewQuality:
 
 @dataclass(frozen=True, eq=False)
 class _Patch:
-    """The pixels around a point, and the gradient there, (2, h, w)."""
+    """The pixels around a point, the gradient there, (2, h, w), and white minus black."""
 
     grey: GreyPixels
     gradient: Array
+    contrast: float
 
     @classmethod
     def around(cls, grey: GreyPixels, gradient: Array, centre: Array, half_px: float) -> "_Patch":
@@ -126,12 +129,8 @@ class _Patch:
         column, row = np.rint(centre).astype(int)
         rows = slice(max(0, row - half), max(0, row + half) + 1)
         columns = slice(max(0, column - half), max(0, column + half) + 1)
-        return cls(grey[rows, columns], gradient[:, rows, columns])
-
-    @property
-    def contrast(self) -> float:
-        low, high = np.percentile(self.grey, [4, 96])
-        return float(high - low)
+        pixels = grey[rows, columns]
+        return cls(pixels, gradient[:, rows, columns], _contrast(pixels))
 
     @property
     def saturated_share(self) -> float:
@@ -142,6 +141,13 @@ class _Patch:
         steepest = float(np.abs(np.tensordot(normal, self.gradient, axes=1)).max())
         spread = self.contrast / (np.sqrt(2 * np.pi) * max(steepest, 1e-3))
         return float(np.sqrt(max(spread**2 - _SMOOTH_PX**2, 0.01)))
+
+
+def _contrast(grey: GreyPixels) -> float:
+    """Return the span of the grey values, without the 4 % at either end."""
+    rising = np.sort(grey, axis=None)
+    low, high = (rising[round(share * (rising.size - 1))] for share in (0.04, 0.96))
+    return float(high) - float(low)
 
 
 def _some(count: int) -> IntArray:
@@ -165,9 +171,18 @@ def _edge_normals(view: BoardView) -> Array:
     return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12))
 
 
+def _cut_out(grey: GreyPixels, places_px: Array) -> tuple[GreyPixels, IntArray]:
+    """Return the part of the picture around the points, and its first pixel's column and row."""
+    low = np.maximum(np.floor(places_px.min(axis=0)).astype(np.int64) - _MARGIN_PX, 0)
+    high = np.maximum(np.ceil(places_px.max(axis=0)).astype(np.int64) + _MARGIN_PX, low) + 1
+    return grey[low[1] : high[1], low[0] : high[0]], low
+
+
 def _gradient(grey: GreyPixels) -> Array:
     smooth = cv2.GaussianBlur(grey.astype(np.float32), (0, 0), _SMOOTH_PX)
-    down, across = np.gradient(smooth)
+    across, down = (
+        cv2.Sobel(smooth, cv2.CV_32F, dx, dy, ksize=1, scale=0.5) for dx, dy in ((1, 0), (0, 1))
+    )
     return np.stack([across, down])
 
 
