@@ -92,7 +92,7 @@ def _by_edges(H: Array, seen: Print, size: Array, spread_px: float) -> tuple[Arr
     area = 2 * np.pi * spread_px**2
     by_corners = np.einsum("ec,ey,ex->yxc", strength, bell_y, bell_x, optimize=True) / area
     slope_x, slope_y = (-length * normal_px[:, k, None] / spread_px for k in (0, 1))
-    by_blur = (bell_y.T @ (slope_x * -off_x * bell_x) + (slope_y * -off_y * bell_y).T @ bell_x)
+    by_blur = bell_y.T @ (slope_x * -off_x * bell_x) + (slope_y * -off_y * bell_y).T @ bell_x
     return by_corners.reshape(-1, 8), -by_blur.ravel() / area
 
 

@@ -1,8 +1,8 @@
 """From the fitted numbers to the marker's corners in the image, and how they move with them."""
 
 import numpy as np
-from numba import njit
 
+from tagmetry.detect.photometric.kernel import kernel
 from tagmetry.detect.photometric.model import BOWS, cells_at
 from tagmetry.detect.photometric.straight import straight_place
 from tagmetry.geometry import Array
@@ -10,7 +10,7 @@ from tagmetry.geometry import Array
 _SMALL = 1e-5
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def cells_of_place(fit: Array, lens: Array, x: float, y: float) -> tuple[float, float]:
     """Return the cell coordinates u, v of a place in the image, through lens and bows."""
     x, y = straight_place(x, y, lens)
@@ -21,7 +21,7 @@ def cells_of_place(fit: Array, lens: Array, x: float, y: float) -> tuple[float, 
     return u, v
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _slopes(fit: Array, lens: Array, x: float, y: float) -> Array:
     """Return d(u, v) / d(x, y), shape (2, 2)."""
     slopes = np.empty((2, 2))
@@ -35,7 +35,7 @@ def _slopes(fit: Array, lens: Array, x: float, y: float) -> Array:
     return slopes
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def place_of_cells(
     fit: Array, lens: Array, u: float, v: float, x: float, y: float
 ) -> tuple[float, float, Array]:
@@ -58,7 +58,7 @@ def place_of_cells(
     return x, y, back
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _inverse(M: Array) -> Array:
     determinant = M[0, 0] * M[1, 1] - M[0, 1] * M[1, 0]
     if determinant == 0.0:
@@ -66,7 +66,7 @@ def _inverse(M: Array) -> Array:
     return np.array([[M[1, 1], -M[0, 1]], [-M[1, 0], M[0, 0]]]) / determinant
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def corners_of_fit(
     fit: Array, lens: Array, square: tuple[float, float], start: Array, count: int
 ) -> tuple[Array, Array]:

@@ -1,28 +1,38 @@
 """Gauss and Newton: the numbers of the model that explain the pixels best, and their covariance."""
 
 import numpy as np
-from numba import njit
 
 from tagmetry.detect.photometric.ink import MOST_EDGES
-from tagmetry.detect.photometric.model import BLACK, BLUR, BOWS, COUNT, EXPONENT, SLOPES, value_at
+from tagmetry.detect.photometric.kernel import kernel
+from tagmetry.detect.photometric.model import (
+    BLACK,
+    BLUR,
+    COUNT,
+    EXPONENT,
+    SLOPES,
+    levels_of,
+    value_at,
+)
 from tagmetry.geometry import Array
 
 _FAR = 4.0  # residuals beyond so many deviations count less
 _LEAST_NOISE = 0.3  # grey values: that of rounding
-_COARSE = 4  # of so many pixels one is used in the first rounds
+_COARSE = 250  # pixels in the first rounds
 _PRIOR_EXPONENT = 0.7  # of its logarithm
 _PRIOR_BLUR = 1.0  # of its variances, as a share
 _PRIOR_SLOPE = 0.3  # of light, across half a diagonal
 _MOST_MOVE_PX = 1.5
-_SETTLED_PX = 0.002
+_SETTLED_PX = 0.01
+_NEARLY_PX = 0.1  # is settled for the first stages
 _FIRST_NOISE = 20.0
-_MOST_ROUNDS = 18
+_MOST_ROUNDS = 6  # of a stage
 _FULL = 255.0
 _OF_WEIGHTS = 1.228  # (E w / E (w r)')^2 of Cauchy's weights on Gaussian noise
+EXPONENTS = (-0.7, 1.4)  # of their logarithm
 _BLUR_PX2 = (0.1, 16.0)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _normal(
     fit: Array, ink: Array, pixels: Array, every: int, noise: float, count: int
 ) -> tuple[Array, Array, float, Array]:
@@ -34,10 +44,10 @@ def _normal(
     edges, J = np.zeros((4, MOST_EDGES + 1)), np.zeros(COUNT)
     N, g = np.zeros((count, count)), np.zeros(count)
     residuals = np.zeros((len(pixels) + every - 1) // every)
-    squares, edges2 = 0.0, 1e-12
+    squares, edges2, levels = 0.0, 1e-12, levels_of(fit)
     for k in range(len(residuals)):
         x, y, seen = pixels[k * every]
-        model = value_at(fit, ink, x, y, edges, J)
+        model = value_at(fit, levels, ink, x, y, edges, J)
         r = seen - model
         residuals[k] = abs(r)
         if seen >= _FULL and model > _FULL:
@@ -54,7 +64,7 @@ def _normal(
     return N, g, _OF_WEIGHTS * squares / edges2, residuals
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _factor(N: Array, L: Array, scale: Array) -> bool:
     """Write the Cholesky factor of N scaled to a unit diagonal; False where it has none."""
     n = len(scale)
@@ -74,7 +84,7 @@ def _factor(N: Array, L: Array, scale: Array) -> bool:
     return True
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _solved(L: Array, scale: Array, g: Array) -> Array:
     n = len(scale)
     x = np.zeros(n)
@@ -91,12 +101,12 @@ def _solved(L: Array, scale: Array, g: Array) -> Array:
     return x * scale
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _limited(fit: Array, half_px: float) -> None:
     """Keep levels, exponent and blur where the model means something."""
     for k in range(2):
         fit[BLACK + k] = min(max(fit[BLACK + k], 0.5 / 255), 4.0)
-    fit[EXPONENT] = min(max(fit[EXPONENT], -1.0), 1.6)
+    fit[EXPONENT] = min(max(fit[EXPONENT], EXPONENTS[0]), EXPONENTS[1])
     low, high = _BLUR_PX2[0] / half_px**2, _BLUR_PX2[1] / half_px**2
     fit[BLUR] = min(max(fit[BLUR], low), high)
     fit[BLUR + 2] = min(max(fit[BLUR + 2], low), high)
@@ -104,7 +114,7 @@ def _limited(fit: Array, half_px: float) -> None:
     fit[BLUR + 1] = min(max(fit[BLUR + 1], -most), most)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _moved_px(fit: Array, step: Array, half_px: float) -> float:
     """Return about how far a step moves the marker's picture."""
     cell_px = half_px / np.sqrt(abs(fit[0] * fit[4] - fit[1] * fit[3]))
@@ -113,7 +123,7 @@ def _moved_px(fit: Array, step: Array, half_px: float) -> float:
     return cell_px * max(across, down)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _shorten(fit: Array, step: Array, half_px: float) -> float:
     """Keep a step where the model may be taken as linear; return how far it moves the picture."""
     moved_px = _moved_px(fit, step, half_px)
@@ -126,7 +136,7 @@ def _shorten(fit: Array, step: Array, half_px: float) -> float:
     return moved_px
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _add_priors(N: Array, g: Array, fit: Array, noise: float) -> None:
     """Add what is known beforehand: exponents near 1, blur alike in all directions, even light."""
     exponent = (noise / _PRIOR_EXPONENT) ** 2
@@ -143,7 +153,7 @@ def _add_priors(N: Array, g: Array, fit: Array, noise: float) -> None:
         g[k] -= light * fit[k]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def fit_pixels(
     start: Array, ink: Array, pixels: Array, half_px: float, most: int
 ) -> tuple[Array, Array, float, float]:
@@ -162,34 +172,31 @@ def fit_pixels(
         The fit, shape (21,), its covariance, shape (most, most), the noise (grey values) and how
         far the picture moved in the last round (px), infinite where there is no solution.
     """
-    fit, noise, every, count = start.copy(), _FIRST_NOISE, _COARSE, SLOPES
-    late, moved_px = 0, np.inf
-    for _ in range(_MOST_ROUNDS):
-        N, g, variance, residuals = _normal(fit, ink, pixels, every, noise, count)
-        noise = max(np.median(residuals) / 0.6745, _LEAST_NOISE)
-        if count > EXPONENT:
-            _add_priors(N, g, fit, noise)
-        L, scale = np.zeros((count, count)), np.ones(count)
-        if not _factor(N, L, scale):
-            return fit, N, noise, np.inf
-        step = _solved(L, scale, g)
-        moved_px = _shorten(fit, step, half_px)
-        fit[:count] += step
-        _limited(fit, half_px)
-        late += 1
-        if count < most:
-            if moved_px < 0.1 or late >= 5:
-                count, late = most, 0
-        elif every > 1:
-            if moved_px < 0.05 or late >= 6:
-                every = 1
-        elif moved_px < _SETTLED_PX:
-            break
+    fit, covariance = start.copy(), np.zeros((most, most))
+    every = max(1, len(pixels) // _COARSE)
+    noise = _FIRST_NOISE
+    for stage in range(3):
+        count = SLOPES if stage == 0 else most
+        stride = 1 if stage == 2 else every
+        for _ in range(_MOST_ROUNDS):
+            N, g, variance, residuals = _normal(fit, ink, pixels, stride, noise, count)
+            noise = max(np.median(residuals) / 0.6745, _LEAST_NOISE)
+            if stage > 0:
+                _add_priors(N, g, fit, noise)
+            L, scale = np.zeros((count, count)), np.ones(count)
+            if not _factor(N, L, scale):
+                return fit, covariance, noise, np.inf
+            step = _solved(L, scale, g)
+            moved_px = _shorten(fit, step, half_px)
+            fit[:count] += step
+            _limited(fit, half_px)
+            if moved_px < (_SETTLED_PX if stage == 2 else _NEARLY_PX):
+                break
     variance = max(variance, _LEAST_NOISE**2) * len(pixels) / max(len(pixels) - most, 1)
     return fit, variance * _inverse(L, scale), noise, moved_px
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _inverse(L: Array, scale: Array) -> Array:
     """Return the inverse of the matrix that has been factored."""
     n = len(scale)

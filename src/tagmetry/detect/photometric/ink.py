@@ -10,9 +10,9 @@ edges cross, and is followed to the second order in the correlation (Mehler's se
 """
 
 import numpy as np
-from numba import njit
 from scipy.special import ndtr
 
+from tagmetry.detect.photometric.kernel import kernel
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 
@@ -30,9 +30,9 @@ def printed(picture: BoolArray) -> Array:
     return np.pad(np.asarray(picture, dtype=np.float64), QUIET_CELLS, constant_values=1.0)
 
 
-@njit(cache=True, nogil=True)
-def _edges(u: float, blur: float, count: int, step: Array, bell: Array) -> tuple[int, int]:
-    """Write the Gaussian's integral and density at the edges around u; first and last cell seen."""
+@kernel
+def _edges(u: float, blur: float, count: int, edges: Array, at: int) -> tuple[int, int]:
+    """Return the first and last cell seen from u; the edges' steps and bells are written."""
     first = min(max(int(np.floor(u - REACH * blur)), 0), count - 1)
     last = min(max(int(np.floor(u + REACH * blur)), 0), count - 1, first + MOST_EDGES)
     for k in range(first + 1, last + 1):
@@ -40,27 +40,27 @@ def _edges(u: float, blur: float, count: int, step: Array, bell: Array) -> tuple
         place = (z + 4.0) * _STEPS
         left = int(place)
         share = place - left
-        step[k - first] = _STEP[left] + share * (_STEP[left + 1] - _STEP[left])
-        bell[k - first] = _BELL[left] + share * (_BELL[left + 1] - _BELL[left])
+        edges[at, k - first] = _STEP[left] + share * (_STEP[left + 1] - _STEP[left])
+        edges[at + 1, k - first] = _BELL[left] + share * (_BELL[left + 1] - _BELL[left])
     return first, last
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _along(
-    row: Array, first: int, last: int, u: float, blur: float, step: Array, bell: Array
+    ink: Array, row: int, first: int, last: int, u: float, blur: float, edges: Array
 ) -> tuple[float, float, float]:
     """Return one row of cells at u: white, its slope times the blur, its bend times blur^2."""
-    white, slope, bend = row[first], 0.0, 0.0
+    white, slope, bend = ink[row, first], 0.0, 0.0
     for k in range(first + 1, last + 1):
-        change = row[k] - row[k - 1]
+        change = ink[row, k] - ink[row, k - 1]
         if change != 0.0:
-            white += change * step[k - first]
-            slope += change * bell[k - first]
-            bend -= change * bell[k - first] * (u - k) / blur
+            white += change * edges[0, k - first]
+            slope += change * edges[1, k - first]
+            bend -= change * edges[1, k - first] * (u - k) / blur
     return white, slope, bend
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def blurred(
     ink: Array,
     u: float,
@@ -85,17 +85,14 @@ def blurred(
         The whiteness 0 to 1, and by u, v, blur_u, blur_v (per cell) and the correlation; what the
         correlation adds is left out of the first four.
     """
-    step_u, bell_u, step_v, bell_v = edges[0], edges[1], edges[2], edges[3]
-    first_u, last_u = _edges(u, blur_u, ink.shape[1], step_u, bell_u)
-    first_v, last_v = _edges(v, blur_v, ink.shape[0], step_v, bell_v)
-    above, above_slope, above_bend = _along(
-        ink[first_v], first_u, last_u, u, blur_u, step_u, bell_u
-    )
+    first_u, last_u = _edges(u, blur_u, ink.shape[1], edges, 0)
+    first_v, last_v = _edges(v, blur_v, ink.shape[0], edges, 2)
+    above, above_slope, above_bend = _along(ink, first_v, first_u, last_u, u, blur_u, edges)
     white, by_u, by_blur_u, by_v, by_blur_v = above, above_slope, above_bend, 0.0, 0.0
     by_correlation = 0.0
     for row in range(first_v + 1, last_v + 1):
-        here, slope, bend = _along(ink[row], first_u, last_u, u, blur_u, step_u, bell_u)
-        step, bell = step_v[row - first_v], bell_v[row - first_v]
+        here, slope, bend = _along(ink, row, first_u, last_u, u, blur_u, edges)
+        step, bell = edges[2, row - first_v], edges[3, row - first_v]
         z = (v - row) / blur_v
         twist = z * (bend - above_bend) * correlation
         white += (here - above) * step + correlation * (slope - above_slope - 0.5 * twist) * bell

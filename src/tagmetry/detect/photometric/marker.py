@@ -1,10 +1,10 @@
 """One marker: from first corners to a fit, from there to better corners with their covariance."""
 
 import numpy as np
-from numba import njit
 
 from tagmetry.detect.photometric.corners import corners_of_fit
 from tagmetry.detect.photometric.fit import fit_pixels
+from tagmetry.detect.photometric.kernel import kernel
 from tagmetry.detect.photometric.model import BLACK, BLUR, BOWS, COUNT, cells_at
 from tagmetry.detect.photometric.pixels import gather
 from tagmetry.detect.photometric.straight import straight_place
@@ -40,7 +40,7 @@ def first_fit(corners: Array, lens: Array, square: tuple[float, float], half_px:
     return fit
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _levels(start: Array, ink: Array, pixels: Array) -> tuple[float, float]:
     """Return the mean values of pixels on black and on white cells, as a share of 255."""
     sums, counts = np.zeros(2), np.full(2, 1e-9)
@@ -53,7 +53,7 @@ def _levels(start: Array, ink: Array, pixels: Array) -> tuple[float, float]:
     return levels[0], levels[1]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def fit_marker(
     grey: GreyPixels,
     ink: Array,
@@ -70,7 +70,7 @@ def fit_marker(
     far the picture moved in the last round (px), infinite where the fit failed.
     """
     failed = np.zeros((11, 11))
-    pixels = gather(grey, ink, start, frame, lens)
+    pixels = gather(grey, ink, start, corners, frame, lens, square[1] - square[0])
     if len(pixels) < _LEAST_PIXELS:
         return start, corners, failed, 0.0, np.inf
     start = start.copy()

@@ -18,9 +18,9 @@ The numbers of the fit, in this order:
 """
 
 import numpy as np
-from numba import njit
 
 from tagmetry.detect.photometric.ink import blurred
+from tagmetry.detect.photometric.kernel import kernel
 from tagmetry.geometry import Array
 
 BLACK, SLOPES, EXPONENT, BLUR, BOWS = 8, 10, 14, 15, 18
@@ -28,7 +28,7 @@ COUNT = 21
 _LEAST_LIGHT = 1e-7
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def cells_at(fit: Array, x: float, y: float) -> tuple[float, float, float]:
     """Return the cell coordinates u, v of a place, and the denominator of the homography."""
     down = fit[6] * x + fit[7] * y + 1.0
@@ -36,14 +36,21 @@ def cells_at(fit: Array, x: float, y: float) -> tuple[float, float, float]:
     return u, (fit[3] * x + fit[4] * y + fit[5]) / down, down
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def value_at(
-    fit: Array, ink: Array, x: float, y: float, edges: Array, by_fit: Array
+    fit: Array,
+    levels: tuple[float, float, float, float, float],
+    ink: Array,
+    x: float,
+    y: float,
+    edges: Array,
+    by_fit: Array,
 ) -> float:
     """Return the modelled grey value of a pixel, and write its derivatives by the fit.
 
     Args:
         fit: The numbers, shape (21,).
+        levels: From `levels_of`.
         ink: From `printed`.
         x: Place of the pixel.
         y: Downward.
@@ -66,7 +73,7 @@ def value_at(
     )
     by_blur_u -= by_mixed * mixed / (both * blur_u)
     by_blur_v -= by_mixed * mixed / (both * blur_v)
-    value, by_white = _value(fit, x, y, white, by_fit)
+    value, by_white = _value(fit, levels, x, y, white, by_fit)
     by_u, by_v = by_white * by_u, by_white * by_v
     by_blur_u, by_blur_v = by_white * by_blur_u / blur_u, by_white * by_blur_v / blur_v
     by_ux, by_uy = by_blur_u * (xx * ux + xy * uy), by_blur_u * (xy * ux + yy * uy)
@@ -81,9 +88,7 @@ def value_at(
     by_fit[7] -= (u * by_uy + v * by_vy) / down + bent_y * by_down
     by_mixed *= by_white / both
     by_fit[BLUR] = 0.5 * (by_blur_u * ux * ux + by_blur_v * vx * vx) + by_mixed * ux * vx
-    by_fit[BLUR + 1] = (
-        by_blur_u * ux * uy + by_blur_v * vx * vy + by_mixed * (ux * vy + uy * vx)
-    )
+    by_fit[BLUR + 1] = by_blur_u * ux * uy + by_blur_v * vx * vy + by_mixed * (ux * vy + uy * vx)
     by_fit[BLUR + 2] = 0.5 * (by_blur_u * uy * uy + by_blur_v * vy * vy) + by_mixed * uy * vy
     by_x, by_y = by_u * ux + by_v * vx, by_u * uy + by_v * vy
     by_fit[BOWS], by_fit[BOWS + 1] = far * by_x, far * by_y
@@ -91,12 +96,31 @@ def value_at(
     return value
 
 
-@njit(cache=True, nogil=True)
-def _value(fit: Array, x: float, y: float, white: float, by_fit: Array) -> tuple[float, float]:
-    """Return the value of a place that is so white, and its derivative; by the levels, written."""
+@kernel
+def levels_of(fit: Array) -> tuple[float, float, float, float, float]:
+    """Return the exponent, the light of black and of white, and the logarithms of their values."""
     exponent = np.exp(fit[EXPONENT])
     log_black, log_white = np.log(fit[BLACK]), np.log(fit[BLACK + 1])
-    black, paper = np.exp(exponent * log_black), np.exp(exponent * log_white)
+    return (
+        exponent,
+        np.exp(exponent * log_black),
+        np.exp(exponent * log_white),
+        log_black,
+        log_white,
+    )
+
+
+@kernel
+def _value(
+    fit: Array,
+    levels: tuple[float, float, float, float, float],
+    x: float,
+    y: float,
+    white: float,
+    by_fit: Array,
+) -> tuple[float, float]:
+    """Return the value of a place that is so white, and its derivative; by the levels, written."""
+    exponent, black, paper, log_black, log_white = levels
     slope_black = fit[SLOPES] * x + fit[SLOPES + 1] * y
     slope_contrast = fit[SLOPES + 2] * x + fit[SLOPES + 3] * y
     contrast = paper - black + slope_contrast
@@ -109,13 +133,12 @@ def _value(fit: Array, x: float, y: float, white: float, by_fit: Array) -> tuple
     by_fit[SLOPES], by_fit[SLOPES + 1] = by_light * x, by_light * y
     by_fit[SLOPES + 2], by_fit[SLOPES + 3] = by_light * x * white, by_light * y * white
     by_fit[EXPONENT] = by_light * (
-        exponent * (black * log_black * (1 - white) + paper * log_white * white)
-        - light * log_light
+        exponent * (black * log_black * (1 - white) + paper * log_white * white) - light * log_light
     )
     return value, by_light * contrast
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _by_place(
     by_fit: Array, x: float, y: float, by_u: float, by_v: float, u: float, v: float
 ) -> None:

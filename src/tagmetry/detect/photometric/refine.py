@@ -19,9 +19,10 @@ import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.detect.photometric.bows import believed
+from tagmetry.detect.photometric.fit import EXPONENTS
 from tagmetry.detect.photometric.ink import QUIET_CELLS, printed
 from tagmetry.detect.photometric.marker import first_fit, fit_marker, frame_of
-from tagmetry.detect.photometric.model import BLACK, BOWS
+from tagmetry.detect.photometric.model import BLACK, BOWS, EXPONENT
 from tagmetry.detect.photometric.straight import NO_LENS, lens_around
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels
@@ -125,6 +126,7 @@ def _fitted(
     )
     contrast = 255 * abs(fit[BLACK + 1] - fit[BLACK])
     sound = moved_px < _SETTLED_PX and contrast > _LEAST_CONTRAST * noise
+    sound = sound and EXPONENTS[0] < fit[EXPONENT] < EXPONENTS[1]
     return fit, places, joint, bool(sound)
 
 

@@ -7,9 +7,9 @@ fisheye's markers far from its axis have straight sides, and is scaled like the 
 """
 
 import numpy as np
-from numba import njit
 
 from tagmetry.camera import Camera
+from tagmetry.detect.photometric.kernel import kernel
 from tagmetry.geometry import Array
 
 _DEGREE = 5
@@ -53,7 +53,7 @@ def lens_around(camera: Camera, frame: Array) -> Array:
     return np.asarray(coefficients @ np.linalg.inv(slope))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def straight_place(x: float, y: float, lens: Array) -> tuple[float, float]:
     """Return where a place of the image lies in the straight image; itself without a lens."""
     if len(lens) == 0:
