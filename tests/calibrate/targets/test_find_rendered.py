@@ -1,6 +1,7 @@
 """Boards found in rendered pictures: where the truth is, with a stated error that is true."""
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -26,6 +27,7 @@ every_board = pytest.mark.parametrize("name", BOARDS)
 SADDLES = pytest.mark.parametrize("name", ["chessboard", "charuco", "aprilgrid"])
 
 
+@cache
 def taken(name: str, seed: int = 0, **wanted: object) -> Picture:
     return picture(BOARDS[name], seed, spacing_px=SPACING_PX.get(name, 28.0), **wanted)
 
@@ -58,8 +60,20 @@ def test_points_are_found_at_any_tilt(name: str, tilt_deg: float) -> None:
     assert rms(shown.errors_px(view)) < WORST_PX.get(name, 0.02)
 
 
-@pytest.mark.parametrize("name", ["chessboard", "charuco", "grid", "aprilgrid", "staggered"])
-@pytest.mark.parametrize("roll_deg", [-135.0, -90.0, 90.0, 180.0])
+@pytest.mark.parametrize(
+    ("name", "roll_deg"),
+    [
+        pytest.param(name, roll, marks=[] if roll in short else [pytest.mark.slow])
+        for name, short in (
+            ("chessboard", (-135.0, 180.0)),
+            ("charuco", (90.0,)),
+            ("grid", (-90.0,)),
+            ("aprilgrid", (180.0,)),
+            ("staggered", (-135.0, 90.0)),
+        )
+        for roll in (-135.0, -90.0, 90.0, 180.0)
+    ],
+)
 def test_a_turned_board_is_counted_from_its_own_first_point(name: str, roll_deg: float) -> None:
     shown = taken(name, roll_deg=roll_deg)
     view = found(name, shown.pixels)
@@ -85,14 +99,24 @@ def test_a_square_board_of_odd_counts_stands_upright() -> None:
     assert rms(shown.errors_px(view)) < 0.02
 
 
-@pytest.mark.parametrize("name", ["chessboard", "charuco", "aprilgrid", "staggered"])
-@pytest.mark.parametrize("noise", [1.0, 4.0, 10.0])
+STATED = [("chessboard", 4.0), ("charuco", 4.0), ("aprilgrid", 10.0), ("staggered", 4.0)]
+NOISES = [(name, noise) for noise in (1.0, 4.0, 10.0) for name, _ in STATED]
+BLURS = [(name, blur) for blur in (0.35, 1.0, 2.0) for name in ("chessboard", "aprilgrid")]
+BLURS += [("staggered", blur) for blur in (0.35, 1.0, 2.0)]
+SHORT = [*STATED, ("chessboard", 0.35), ("chessboard", 2.0), ("staggered", 1.0)]
+
+
+def short_and_slow(cases: list[tuple[str, float]]) -> list[object]:
+    """Return all cases, those marked as slow that the short run can do without."""
+    return [pytest.param(*one, marks=[] if one in SHORT else [pytest.mark.slow]) for one in cases]
+
+
+@pytest.mark.parametrize(("name", "noise"), short_and_slow(NOISES))
 def test_the_stated_error_is_the_true_one_at_any_noise(name: str, noise: float) -> None:
     assert_stated_is_true(name, noise=noise, blur_px=0.5)
 
 
-@pytest.mark.parametrize("name", ["chessboard", "aprilgrid", "staggered"])
-@pytest.mark.parametrize("blur_px", [0.35, 1.0, 2.0])
+@pytest.mark.parametrize(("name", "blur_px"), short_and_slow(BLURS))
 def test_the_stated_error_is_the_true_one_at_any_blur(name: str, blur_px: float) -> None:
     assert_stated_is_true(name, noise=5.0, blur_px=blur_px)
 
