@@ -128,12 +128,13 @@ def _moved_by_corners(H: Array, at: Array) -> tuple[Array, Array]:
 
 def _whiteness(H: Array, seen: Print, size: Array, spread_px: float) -> Array:
     """Return how white each pixel is, 0 to 1, shape (p,), from samples within pixels."""
-    fine = (np.arange(_FINER * size.max()) + 0.5) / _FINER - 0.5
-    x, y = np.meshgrid(fine[: _FINER * size[0]], fine[: _FINER * size[1]])
-    places = apply_homography(np.linalg.inv(H), np.stack([x, y], axis=-1).reshape(-1, 2))
+    fine: Array = (np.arange(_FINER * size.max()) + 0.5) / _FINER - 0.5
+    x, y = np.meshgrid(fine[: _FINER * int(size[0])], fine[: _FINER * int(size[1])])
+    samples: Array = np.stack([x, y], axis=-1).reshape(-1, 2)
+    places = apply_homography(np.asarray(np.linalg.inv(H)), samples)
     side = len(seen.picture) - 2 * seen.margin_cells
     cell = np.floor(places * side).astype(int) + seen.margin_cells
-    on = ((cell >= 0) & (cell < len(seen.picture))).all(axis=1)
+    on = np.asarray(((cell >= 0) & (cell < len(seen.picture))).all(axis=1))
     column, row = np.where(on[:, None], cell, 0).T
     white = np.where(on, seen.picture[row, column], 1.0).reshape(x.shape)
     blurred = gaussian_filter(white, spread_px * _FINER, mode="nearest")

@@ -63,7 +63,7 @@ def _inverse(M: Array) -> Array:
     determinant = M[0, 0] * M[1, 1] - M[0, 1] * M[1, 0]
     if determinant == 0.0:
         return np.full((2, 2), np.nan)
-    return np.array([[M[1, 1], -M[0, 1]], [-M[1, 0], M[0, 0]]]) / determinant
+    return np.asarray(np.array([[M[1, 1], -M[0, 1]], [-M[1, 0], M[0, 0]]]) / determinant)
 
 
 @kernel

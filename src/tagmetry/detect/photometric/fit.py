@@ -120,7 +120,7 @@ def _moved_px(fit: Array, step: Array, half_px: float) -> float:
     cell_px = half_px / np.sqrt(abs(fit[0] * fit[4] - fit[1] * fit[3]))
     across = abs(step[0]) + abs(step[1]) + abs(step[2])
     down = abs(step[3]) + abs(step[4]) + abs(step[5])
-    return cell_px * max(across, down)
+    return float(cell_px * max(across, down))
 
 
 @kernel

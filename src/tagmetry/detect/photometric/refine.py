@@ -31,6 +31,7 @@ _FLOOR_PX = 0.003  # what the model does not describe
 _LOST_PX = (2.5, 0.05)  # a corner that moved farther was another's; at least, and of the diagonal
 _BOWING_HALF_PX = 21.0  # smaller markers cannot tell a bow from noise
 _SETTLED_PX = 0.05  # in the last round
+_LEAST_TURN_PX2 = 4.0
 _LEAST_CONTRAST = 4.0  # in noises
 _MOST_DEVIATION_PX = 1.5
 
@@ -88,6 +89,8 @@ def fit_pictures(
     corners, joint = np.zeros((count, 4, 2)), np.tile(np.eye(11), (count, 1, 1))
     frames, bows, sound = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count, dtype=bool)
     for i, (first_px, picture) in enumerate(zip(corners_px, pictures, strict=True)):
+        if not _is_square(first_px):
+            continue
         frames[i] = frame_of(first_px)
         bowing = camera is None and frames[i, 2] >= _BOWING_HALF_PX
         fit, corners[i], joint[i], sound[i] = _fitted(
@@ -105,6 +108,14 @@ def fit_pictures(
     covariances_px2 = half_px[:, None, None] ** 2 * covariances + _FLOOR_PX**2 * np.eye(8)
     sound &= _plausible(moved_px, covariances_px2, corners_px, half_px)
     return Fitted(np.where(sound[:, None, None], moved_px, corners_px), covariances_px2, sound)
+
+
+def _is_square(corners_px: Array) -> bool:
+    """Say whether corners go clockwise around an area of some pixels, without a dent."""
+    along = np.roll(corners_px, -1, axis=0) - corners_px
+    after = np.roll(along, -1, axis=0)
+    turn = along[:, 0] * after[:, 1] - along[:, 1] * after[:, 0]
+    return bool((turn > _LEAST_TURN_PX2).all())
 
 
 def _fitted(
