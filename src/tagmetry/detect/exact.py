@@ -1,4 +1,4 @@
-"""The best that can be said of corners: markers' whole pictures where they fit, else their sides."""
+"""The best that can be said of corners: whole pictures where they fit, else the sides alone."""
 
 from collections.abc import Sequence
 
