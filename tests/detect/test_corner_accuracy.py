@@ -1,10 +1,8 @@
 """Corners of rendered markers: how far off, and does the covariance say so?
 
 A corner's error is compared with the Cramer-Rao bound of four blurred sides, and with its own
-covariance: the squared Mahalanobis distance of eight coordinates has the mean 8. What the model of
-a lone step leaves out (bits and background that blur carries in) stands in the covariance as an
-allowance that suits no code exactly, so calibrated means between 2 and 14 here; the allowance can
-go when the whole marker is fitted.
+covariance: the squared Mahalanobis distance of eight coordinates has the mean 8. At 40 dB the
+covariance holds a floor for what no model describes, and is larger than the errors.
 """
 
 import cv2
@@ -38,7 +36,7 @@ def test_errors_are_as_large_as_the_covariance_says(
 ) -> None:
     measured = trials(40, 1, side_px=side_px, tilt_deg=20.0, look=look(noise, blur_px))
     assert measured.missed == 0
-    assert 2.0 < measured.mean_distance2 < 14.0
+    assert 3.0 < measured.mean_distance2 < 11.0
 
 
 @pytest.mark.slow
@@ -48,14 +46,14 @@ def test_errors_are_as_large_as_the_covariance_says(
 def test_covariance_over_sizes_noise_and_blur(side_px: float, noise: float, blur_px: float) -> None:
     measured = trials(150, 2, side_px=side_px, tilt_deg=20.0, look=look(noise, blur_px))
     assert measured.missed <= 2
-    assert 1.5 < measured.mean_distance2 < 16.0
+    assert 3.0 < measured.mean_distance2 < 11.0
 
 
 @pytest.mark.parametrize("tilt_deg", [0.0, 40.0, 65.0])
 def test_covariance_of_oblique_views(tilt_deg: float) -> None:
     measured = trials(30, 3, side_px=60.0, tilt_deg=tilt_deg, look=look(5.0))
     assert measured.missed == 0
-    assert 2.0 < measured.mean_distance2 < 14.0
+    assert 3.0 < measured.mean_distance2 < 11.0
 
 
 @pytest.mark.parametrize("camera_known", [False, True])
@@ -72,12 +70,12 @@ def test_covariance_through_a_strong_lens(camera_known: bool) -> None:
     )
     assert measured.missed == 0
     assert measured.rms_px < 0.02
-    assert 2.0 < measured.mean_distance2 < 14.0
+    assert 3.0 < measured.mean_distance2 < 11.0
 
 
-@pytest.mark.parametrize(("side_px", "times"), [(30.0, 2.0), (60.0, 1.7), (100.0, 1.7)])
+@pytest.mark.parametrize(("side_px", "times"), [(30.0, 1.25), (60.0, 1.2), (100.0, 1.2)])
 def test_noise_moves_corners_little_more_than_it_must(side_px: float, times: float) -> None:
-    """20 dB; levels and blur are fitted per side, which the bound does not count."""
+    """20 dB; the bound counts the four sides only, not the cells within, nor levels and blur."""
     measured = trials(40, 5, side_px=side_px, look=look(16.0))
     assert measured.rms_px < times * bound_px(side_px, 0.6, CONTRAST / 16.0)
 
@@ -92,8 +90,8 @@ def test_corners_are_unbiased() -> None:
     assert np.abs(np.mean(errors, axis=0)).max() < 0.015
 
 
-def test_a_gamma_curve_moves_every_side_and_the_covariance_does_not_say_so() -> None:
-    """Present limit, in numbers: sRGB-like encoding bends each step, by a share of its blur."""
+def test_a_gamma_curve_moves_no_corner() -> None:
+    """sRGB-like encoding bends each step; the pictures of whole markers tell by how much."""
     outward, rng = [], np.random.default_rng(7)
     for _ in range(12):
         shown = scene(rng, 60.0, look=Look(black=5.0, white=210.0, noise=0.0, blur_px=0.7))
@@ -104,7 +102,7 @@ def test_a_gamma_curve_moves_every_side_and_the_covariance_does_not_say_so() -> 
             ((found.corners_px - shown.corners_px) * rays).sum(axis=1)
             / np.linalg.norm(rays, axis=1)
         )
-    assert -0.65 < np.mean(outward) < -0.15  # white grows into black
+    assert abs(np.mean(outward)) < 0.003
 
 
 def test_light_and_contrast_leave_corners_where_they_are() -> None:

@@ -209,12 +209,15 @@ def test_small_sets(folder: str, name: str, markers: range, count: int | None, l
 
 
 def test_a_single_border_is_not_found_inside_a_double_one() -> None:
-    """Its bits would read, from a square half a cell inside the border, where no edge is."""
+    """Its bits would read, from a square half a cell (4 px) inside the border, where no edge is.
+
+    The picture of a single border does not explain the pixels, so its sides are fitted alone.
+    """
     path = pictures("small_sets/apriltag_test_images", "*_1.jpg")[0]
     picture = grey(path)
     double = {d.id: d for d in Detector([APRILGRID]).detect(picture)}
     for single in Detector().detect(picture):
-        np.testing.assert_allclose(single.corners_px, double[single.id].corners_px, atol=0.1)
+        np.testing.assert_allclose(single.corners_px, double[single.id].corners_px, atol=1.0)
 
 
 def test_an_inverted_board_is_found_only_when_asked_for() -> None:
