@@ -19,9 +19,10 @@ from tagmetry.detect.choose import (
 )
 from tagmetry.detect.decode import read
 from tagmetry.detect.detection import Detection, Findings, Rejection
+from tagmetry.detect.exact import exact_corners
 from tagmetry.detect.grey import grey_8bit
+from tagmetry.detect.photometric import Picture
 from tagmetry.detect.quads import quads
-from tagmetry.detect.refine import refine
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import AnyPixels, GreyPixels
@@ -118,8 +119,7 @@ def _detections(
     if not candidates:
         return ()
     corners_px = np.stack([candidate.corners_px for candidate in candidates])
-    cells = np.array([candidate.match.family.layout.side_cells for candidate in candidates])
-    refined = refine(grey, corners_px, cells, camera)
+    refined = exact_corners(grey, corners_px, [_picture(one) for one in candidates], camera)
     detections = [
         Detection(
             candidate.match.family.name,
@@ -134,6 +134,11 @@ def _detections(
         for i, candidate in enumerate(candidates)
     ]
     return with_duplicates_marked(detections)
+
+
+def _picture(candidate: Candidate) -> Picture:
+    own = candidate.match.family
+    return Picture(own.picture(candidate.match.id), own.layout.margin_cells)
 
 
 def _default_min_side_px(grey: GreyPixels) -> float:
