@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tagmetry.calibrate.belief import shape_belief_m
 from tagmetry.calibrate.bundle import Bundle, Freedom
 from tagmetry.calibrate.freedom import Wanted
 from tagmetry.calibrate.robust import lengths_in_sd, robust_scale, settle_softly, solve_robustly
@@ -15,7 +16,6 @@ from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 
 _GOOD_ENOUGH = 2.0  # times the error that homographies leave: no other start is tried
-_IN_PLANE, _OUT_OF_PLANE = 0.002, 0.01  # of the board's diagonal: print, and bow of the support
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,15 +57,11 @@ def refit(start: Bundle, seen: Sightings, wanted: Wanted, *, robust: bool, steps
 def release_shape(flat: Fit, seen: Sightings, *, robust: bool) -> Fit:
     """Return the best camera when the board's points may leave the maker's places.
 
-    How far is a matter of belief: one standard deviation is 0.2 % of the board's diagonal along
-    each axis of its plane (a printer's scale and paper that shrinks) and 1 % out of it (a bow).
-    The belief also settles what no picture tells: the board's own frame and scale. The corners'
-    sd is set to what the flat fit left, so that belief and measurement weigh as they should.
+    How far is a matter of belief: `shape_belief_m`. It also settles what no picture tells: the
+    board's own frame and scale. The corners' sd is set to what the flat fit left, so that belief
+    and measurement weigh as they should.
     """
-    extent = float(np.linalg.norm(np.ptp(seen.p_board, axis=0)))
-    freedom = replace(
-        flat.freedom, shape_sd_m=extent * np.array([_IN_PLANE, _IN_PLANE, _OUT_OF_PLANE])
-    )
+    freedom = replace(flat.freedom, shape_sd_m=shape_belief_m(seen.p_board))
     seen = replace(seen, weights=seen.weights / flat.scale**2)
     return _solved(flat.bundle, seen, freedom, robust=robust)
 

@@ -3,7 +3,8 @@
 The error on the fitted corners falls with every coefficient, so it decides nothing. A model must
 show left-out views at most 15 % worse than the best; of those it must be one to one over the
 image, or as nearly so as any; of those show left-out views within 1 % of the best; and of those
-the one with the least Bayesian information criterion wins.
+the one with the least Bayesian information criterion wins, if the views tell all its numbers.
+Lenses of eight coefficients and more are not tried with fewer than eight views.
 
 Reference: G. Schwarz, Estimating the Dimension of a Model, 1978.
 """
@@ -14,6 +15,7 @@ import numpy as np
 
 from tagmetry.calibrate.bundle import Bundle, errors_px
 from tagmetry.calibrate.choice import LENS_NAMES, LensName, ModelChoice, ModelRow
+from tagmetry.calibrate.covariance import covariances
 from tagmetry.calibrate.fit import Fit, fit_flat, refit
 from tagmetry.calibrate.freedom import Wanted
 from tagmetry.calibrate.hold_out import hold_out_px
@@ -29,6 +31,8 @@ _ROUNDS = 8  # of leaving views out, for each of nine models
 _MOST_STEPS = 30
 _MONOTONIC_SLACK = 0.005
 _CREDIBLE = 1.5  # times the error on fitted corners: a quick hold-out error beyond is looked into
+_MANY, _VIEWS_FOR_MANY = 8, 8  # so many coefficients hang on the one view at the image's corner
+_OPEN = "the views leave some of its numbers open"
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,18 +69,42 @@ def select_model(general: tuple[Fit, ...], wanted: Wanted) -> Selected:
     """Return the lens model that the corners of the best general fit support."""
     fits = _fits(general, wanted)
     rows = {name: _row(name, fit) for name, fit in fits.items()}
-    finalists = _finalists(list(rows.values()))
-    chosen = min(finalists, key=lambda row: row.bic)
-    told = tuple(_told(row, finalists, chosen) for row in rows.values())
+    able = list(rows.values())
+    finalists, chosen = _best(able)
+    while len(able) > 1 and not _is_determined(fits[chosen.name]):
+        able.remove(chosen)
+        finalists, chosen = _best(able)
+    told = tuple(
+        _told(row, finalists, chosen) if row in able else replace(row, verdict=_OPEN)
+        for row in rows.values()
+    )
     return Selected(fits[chosen.name], ModelChoice(chosen.name, told, _reason(chosen, finalists)))
+
+
+def _best(rows: list[ModelRow]) -> tuple[list[ModelRow], ModelRow]:
+    """Return the models that come into question, and the one of them that explains most simply."""
+    finalists = _finalists(rows)
+    return finalists, min(finalists, key=lambda row: row.bic)
+
+
+def _is_determined(fit: Fit) -> bool:
+    """Return whether the views tell all numbers of the camera, so that it has a covariance."""
+    try:
+        covariances(fit.bundle, fit.seen, fit.freedom)
+    except np.linalg.LinAlgError:
+        return False
+    return True
 
 
 def _fits(general: tuple[Fit, ...], wanted: Wanted) -> dict[LensName, Fit]:
     """Return every model's fit to the same corners; a model that no start leads to is missing."""
     fits: dict[LensName, Fit] = {}
+    few = len(general[0].seen) < _VIEWS_FOR_MANY
     for name in LENS_NAMES:
         kind = replace(wanted, lens=name)
-        fitted = []
+        fitted: list[Fit] = []
+        if few and kind.coefficients >= _MANY:
+            continue
         for start in _starts(general, fits, kind):
             try:
                 fitted.append(refit(start, general[0].seen, kind, robust=False, steps=_MOST_STEPS))
@@ -90,7 +118,7 @@ def _fits(general: tuple[Fit, ...], wanted: Wanted) -> dict[LensName, Fit]:
 def _starts(general: tuple[Fit, ...], fits: dict[LensName, Fit], kind: Wanted) -> list[Bundle]:
     """Return where to begin: the general fit of the kind, or the next smaller lens."""
     best = general[0]
-    if kind.coefficients >= 8 and best.bundle.kind == "fisheye":
+    if kind.coefficients >= _MANY and best.bundle.kind == "fisheye":
         return [as_rational(best.bundle, kind.coefficients, _farthest_rad(best))]
     if kind.coefficients > 5:
         return [fit.bundle for fit in fits.values()][-1:]

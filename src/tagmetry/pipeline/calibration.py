@@ -202,7 +202,7 @@ def with_provenance(run: CalibrationRun, board: str, program: str, when: str) ->
     solved = run.calibration
     told = f"{program}, {when}: {len(solved.views)} views of {board}, rms {solved.rms_px:.3f} px"
     left_out = run.assessment.evidence.left_out
-    if left_out is not None:
+    if left_out is not None and np.isfinite(left_out.rms_px):
         told += f", on left-out views {left_out.rms_px:.3f} px"
     return replace(run, calibration=replace(solved, camera=replace(solved.camera, provenance=told)))
 

@@ -138,15 +138,21 @@ def _words(
         )
     ]
     if evidence.left_out:
-        sentences.append(
-            f"Views that were left out are shown within {evidence.left_out.rms_px:.3f} px, those "
-            f"fitted within {calibration.rms_px:.3f} px"
-        )
+        sentences.append(_left_out_words(evidence.left_out.rms_px, calibration.rms_px))
     if weak:
         sentences.append(f"Above all: {weak[0]}")
     if added:
         sentences.append(f"To better it most, {added.text}{_expected(added)}")
     return ". ".join(sentences) + "."
+
+
+def _left_out_words(left_out_px: float, fitted_px: float) -> str:
+    if not np.isfinite(left_out_px):
+        return "Without some of its views there is no camera: they hang on each other"
+    return (
+        f"Views that were left out are shown within {left_out_px:.3f} px, those fitted within "
+        f"{fitted_px:.3f} px"
+    )
 
 
 def _expected(added: NextView) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tagmetry.calibrate.belief import shape_belief_m
 from tagmetry.calibrate.bundle import Bundle, Freedom, linearise
 from tagmetry.calibrate.result import Calibration
 from tagmetry.calibrate.sightings import Sightings, gather
@@ -14,7 +15,6 @@ from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 
 _NO_FREEDOM = 1e-13  # of the largest eigenvalue of a correlation matrix: rounding
-_SHAPE_SHARE = np.array([0.002, 0.002, 0.01])  # of the board's diagonal, as the solver takes it
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,11 +99,6 @@ def view_equations(bundle: Bundle, seen: Sightings, freedom: Freedom) -> tuple[A
     left = by_intrinsics - axes @ (np.swapaxes(axes, 1, 2) @ by_intrinsics)
     turned = np.swapaxes(left, 1, 2)
     return turned @ left, (turned @ error)[..., 0]
-
-
-def shape_belief_m(p_board: Array) -> Array:
-    """Return how far along each axis points (k, 3) may be from the maker's places, shape (3,)."""
-    return np.asarray(np.linalg.norm(np.ptp(p_board, axis=0)) * _SHAPE_SHARE)
 
 
 def honest_covariance(calibration: Calibration) -> Array:

@@ -1,0 +1,32 @@
+"""Lenses that the views cannot tell are not chosen, however well they show them."""
+
+import numpy as np
+import pytest
+from seen_boards import USUAL, seen
+
+from tagmetry.calibrate import calibrate, select
+
+
+def test_a_lens_whose_numbers_stay_open_gives_way_to_the_next(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    views = seen(USUAL, 10, np.random.default_rng(1))
+    first = calibrate(views).choice
+    real = select.covariances
+
+    def open_for_the_first(bundle, found, freedom):
+        if freedom.count == next(r for r in first.rows if r.name == first.chosen).parameters:
+            raise np.linalg.LinAlgError
+        return real(bundle, found, freedom)
+
+    monkeypatch.setattr(select, "covariances", open_for_the_first)
+    second = calibrate(views).choice
+    assert second.chosen != first.chosen
+    (row,) = [one for one in second.rows if one.name == first.chosen]
+    assert row.verdict == "the views leave some of its numbers open"
+
+
+@pytest.mark.parametrize(("count", "most"), [(7, 9), (8, 18)])
+def test_few_views_are_not_shown_by_many_coefficients(count: int, most: int) -> None:
+    choice = calibrate(seen(USUAL, count, np.random.default_rng(2))).choice
+    assert max(row.parameters for row in choice.rows) == most
