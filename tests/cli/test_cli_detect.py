@@ -284,3 +284,21 @@ def test_half_a_line_is_never_written(scene: Scene, tmp_path: Path) -> None:
     out.write_bytes(out.read_bytes()[:-50])
     with pytest.warns(CutLineWarning):
         assert list(read_results(out)) == []
+
+
+def test_a_simulated_camera_is_measured_as_a_real_one(capsys: pytest.CaptureFixture) -> None:
+    assert run(["detect", "twin:webcam", "--limit", "1", "--json"]) == 0
+    (line,) = lines_of(capsys)
+    assert [(one["family"], one["id"]) for one in line["markers"]] == [("tag36h11", 7)]
+
+
+def test_the_file_of_a_scene_is_a_source(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    path = tmp_path / "scene.yaml"
+    path.write_text(
+        "camera:\n  size_px: [320, 240]\n  field_of_view_deg: 60\n"
+        "  at: {translation_m: [0.05, -0.1, 0.3], looking_at_m: [0, 0, 0]}\n"
+        "things: [{marker: tag36h11, ids: [7], size: 80mm}]\nimages: 2\n",
+        "utf-8",
+    )
+    assert run(["detect", f"twin:{path}", "--json"]) == 0
+    assert [[one["id"] for one in line["markers"]] for line in lines_of(capsys)] == [[7], [7]]

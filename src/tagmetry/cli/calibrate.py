@@ -18,7 +18,8 @@ def calibrate(  # noqa: PLR0913 (each argument is an option)
         list[str],
         typer.Argument(
             metavar="SOURCE...",
-            help="Pictures of the board: folder, glob, video, camera number, rtsp:// or http://.",
+            help="Pictures of the board: folder, glob, video, camera number, rtsp://, http://, "
+            "or a scene of the twin: twin:board-sweep, twin:desk.yaml.",
         ),
     ],
     board: Annotated[
@@ -140,11 +141,11 @@ def _check_outputs(out: Path | None, report: Path | None) -> None:
 def _sightings(sources: list[str], request: "Request") -> "Iterator[Sighting]":
     from tagmetry.cli.progress import progress
     from tagmetry.errors import InputError
+    from tagmetry.pipeline import open_images
     from tagmetry.pipeline.calibration import sightings
-    from tagmetry.sources import open_source
 
     for spec in sources:
-        with open_source(spec) as source:
+        with open_images(spec) as source:
             if source.is_live:
                 raise InputError(f"{source.name} has no end: add --live to take views from it")
             yield from sightings(progress(source), request.board)

@@ -47,8 +47,8 @@ def watched(
 def _steps(spec: str, board: "Board", wanted_px: float) -> "Iterator[tuple[Image, Step]]":
     """Give images with what each did."""
     from tagmetry.cli.live_state import StateTeller
+    from tagmetry.pipeline import open_images
     from tagmetry.pipeline.guided import guided
-    from tagmetry.sources import open_source
 
     newest: list[Image] = []
 
@@ -57,7 +57,7 @@ def _steps(spec: str, board: "Board", wanted_px: float) -> "Iterator[tuple[Image
             newest[:] = [image]
             yield image
 
-    with open_source(spec, on_state=StateTeller(spec)) as source:
+    with open_images(spec, on_state=StateTeller(spec)) as source:
         for step in guided(remembered(iter(source)), board, wanted_px):
             yield newest[0], step
 

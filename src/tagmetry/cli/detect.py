@@ -25,7 +25,7 @@ def detect(  # noqa: PLR0913 (each argument is an option)
         typer.Argument(
             metavar="SOURCE...",
             help="Picture, folder, glob, video, camera number, /dev/video0, rtsp://, http://, or a "
-            "simulated camera: twin:webcam, twin:overhead, twin:mono.",
+            "simulated camera or scene: twin:webcam, twin:room, twin:desk.yaml.",
         ),
     ],
     family: Families = ["tag36h11"],  # noqa: B006 (Typer copies it)

@@ -109,8 +109,17 @@ def _residuals(facts: CalibrationFacts) -> ReportFigure:
         step_px = facts.calibration.camera.width_px / 10
         longest = max(float(np.hypot(dx, dy).max(initial=0.0)), 1e-9)
         arrows = axes.quiver(
-            x, y, dx, dy, angles="xy", scale_units="xy", scale=longest / (0.8 * step_px), color=BLUE
+            x,
+            y,
+            dx,
+            dy,
+            angles="xy",
+            scale_units="xy",
+            scale=longest / (0.8 * step_px),
+            color=BLUE,
+            clip_on=False,
         )
+        axes.set_title(" ")  # room for the key
         key_px = _round_down(longest)
         axes.quiverkey(arrows, 0.87, 1.04, key_px, f"{key_px:g} px", labelpos="E")
         return figure

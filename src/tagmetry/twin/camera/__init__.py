@@ -6,10 +6,11 @@ from tagmetry.twin.camera.dials import TwinControls
 from tagmetry.twin.camera.faults import Faults
 from tagmetry.twin.camera.focus_law import DioptreFocus, FixedFocus, FocusLaw, LogFocus
 from tagmetry.twin.camera.models import mono_camera, overhead_camera, webcam
-from tagmetry.twin.camera.ready import marker_before_camera, ready_camera
+from tagmetry.twin.camera.ready import READY_CAMERAS, marker_before_camera, ready_camera
 from tagmetry.twin.camera.setting import Setting
 
 __all__ = [
+    "READY_CAMERAS",
     "Breathing",
     "Device",
     "DioptreFocus",

@@ -28,9 +28,9 @@ def ready_camera(name: str, *, tells_camera: bool = False) -> TwinCamera:
             `mono`: a 30 mm marker, 0.6 m away. All are tag36h11.
         tells_camera: Give every image its exact intrinsics.
     """
-    if name not in _READY:
-        raise InputError(f"expected twin:{', twin:'.join(_READY)}, got twin:{name[:40]}")
-    return _READY[name](tells_camera)
+    if name not in READY_CAMERAS:
+        raise InputError(f"expected twin:{', twin:'.join(READY_CAMERAS)}, got twin:{name[:40]}")
+    return READY_CAMERAS[name](tells_camera)
 
 
 def marker_before_camera(
@@ -86,7 +86,7 @@ def _floor_markers() -> Thing:
     )
 
 
-_READY: Mapping[str, Callable[[bool], TwinCamera]] = {
+READY_CAMERAS: Mapping[str, Callable[[bool], TwinCamera]] = {
     "webcam": _webcam,
     "overhead": _overhead,
     "mono": _mono,
