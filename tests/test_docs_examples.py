@@ -17,8 +17,10 @@ from tagmetry.files import save_camera
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.geometry.transforms import Rotation
-from tagmetry.markers import GridBoard, MountedMarker
-from tagmetry.twin import render
+from tagmetry.markers import Chessboard, GridBoard, MountedMarker
+from tagmetry.twin import Scene, Shot, render
+from tagmetry.twin import photograph as photographed
+from tagmetry.twin.scenes import Still, board_thing
 
 SOURCE = Path(tagmetry.__file__).parents[1]
 EXAMPLES = Path(__file__).parents[1] / "docs" / "examples"
@@ -39,7 +41,20 @@ FLOOR = tuple(
         (2, 0.05, -0.2, 0),
     )
 )
+HELD = (  # where a chessboard is held before a webcam: metres, degrees about x and y
+    ((-0.06, -0.04, 0.50), (155, 10)),
+    ((0.06, -0.04, 0.45), (200, -25)),
+    ((-0.07, 0.04, 0.48), (180, 30)),
+    ((0.07, 0.05, 0.52), (210, 15)),
+    ((0.00, 0.00, 0.36), (175, -8)),
+    ((0.02, 0.03, 0.60), (150, -30)),
+    ((-0.03, -0.02, 0.42), (190, 35)),
+    ((0.00, 0.02, 0.55), (145, 20)),
+)
 WRITTEN = {
+    "bank.py": ("bank.yaml",),
+    "calibrate.py": ("webcam.yaml",),
+    "calibrate.sh": ("webcam.yaml", "webcam.html", "tables/camera.csv"),
     "camera_files.py": ("half.yaml", "middle.yaml"),
     "camera_files.sh": ("half.yaml",),
     "detect.sh": ("overlay.png", "markers.jsonl"),
@@ -54,6 +69,9 @@ WRITTEN = {
     "twin_render.sh": ("desk/truth.jsonl", "desk.jsonl"),
 }
 SAID = {
+    "bank.py": "at focus 53: fx 1005.",
+    "calibrate.py": "8 views leave projections uncertain",
+    "calibrate.sh": "8 views leave projections uncertain",
     "board_pose.py": "6 markers, board at",
     "detect.py": "tag36h11 7 ",
     "doctor.sh": "tag36h11",
@@ -67,6 +85,7 @@ SAID = {
 }
 AFTER = {"read_results.py": "detect.sh", "floor_positions.py": "detect_video.sh"}
 NEEDS = {
+    "calibrate.sh": ["matplotlib"],
     "detect_drive.sh": ["av"],
     "detect_video.sh": ["av", "pyarrow"],
     "floor_positions.py": ["av", "pyarrow"],
@@ -79,6 +98,20 @@ def photograph(markers: Sequence[MountedMarker], tilt_deg: float, depth_m: float
     R_camera_wall = Rotation.from_euler("x", 180 + tilt_deg, degrees=True)
     T_camera_wall = RigidTransform.from_components([0.0, 0.0, depth_m], R_camera_wall)
     return render(markers, T_camera_wall, CAMERA, np.random.default_rng(1))
+
+
+def write_boards(folder: Path) -> None:
+    """Write pictures of a chessboard that is held before a webcam."""
+    folder.mkdir()
+    board = Chessboard(7, 5, 0.030)
+    webcam = Camera(640, 480, (600.0, 600.0), (322.0, 238.0))
+    shot = Shot(webcam, Still(RigidTransform.identity()))
+    for number, (place_m, turn_deg) in enumerate(HELD):
+        turn = Rotation.from_euler("xy", turn_deg, degrees=True)
+        path = Still(RigidTransform.from_components(place_m, turn))
+        scene = Scene((board_thing(board, path),))
+        pixels = photographed(scene, shot, np.random.default_rng(number))
+        cv2.imwrite(str(folder / f"{number}.png"), pixels)
 
 
 def write_video(path: Path, image: GreyPixels) -> None:
@@ -100,6 +133,7 @@ def shelf(tmp_path_factory: pytest.TempPathFactory) -> Path:
     cv2.imwrite(str(folder / "photo.png"), photograph(WALL, tilt_deg=20, depth_m=0.9))
     cv2.imwrite(str(folder / "board.png"), photograph(BOARD, tilt_deg=-25, depth_m=0.5))
     save_camera(CAMERA, folder / "camera.yaml")
+    write_boards(folder / "boards")
     command = folder / "bin" / "tagmetry"
     command.parent.mkdir()
     command.write_text(
@@ -138,6 +172,7 @@ def test_example_runs(name: str, shelf: Path, tmp_path: Path) -> None:
     for file in ("photo.png", "board.png", "camera.yaml"):
         shutil.copy(shelf / file, tmp_path)
     shutil.copy(SCENES / "desk.yaml", tmp_path)
+    shutil.copytree(shelf / "boards", tmp_path / "boards")
     if "av" in NEEDS.get(name, []):
         write_video(tmp_path / "video.mp4", photograph(FLOOR, tilt_deg=10, depth_m=1.2))
     if name in AFTER:
