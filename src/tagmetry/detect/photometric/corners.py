@@ -3,7 +3,7 @@
 import numpy as np
 
 from tagmetry.detect.photometric.kernel import kernel
-from tagmetry.detect.photometric.model import BOWS, cells_at
+from tagmetry.detect.photometric.model import bent_place, cells_at
 from tagmetry.detect.photometric.straight import straight_place
 from tagmetry.geometry import Array
 
@@ -14,9 +14,7 @@ _SMALL = 1e-5
 def cells_of_place(fit: Array, lens: Array, x: float, y: float) -> tuple[float, float]:
     """Return the cell coordinates u, v of a place in the image, through lens and bows."""
     x, y = straight_place(x, y, lens)
-    far = x * x + y * y - 1.0
-    bent_x = x + far * (fit[BOWS] + fit[BOWS + 2] * x)
-    bent_y = y + far * (fit[BOWS + 1] + fit[BOWS + 2] * y)
+    bent_x, bent_y = bent_place(fit, x, y)
     u, v, _ = cells_at(fit, bent_x, bent_y)
     return u, v
 
@@ -77,7 +75,7 @@ def corners_of_fit(
         lens: See `straight_place`.
         square: First and last cell coordinate of the square.
         start: About where the corners are, (4, 2).
-        count: 18, or 21 with the bows.
+        count: 18, or 23 with the bows.
     """
     places, by_fit = np.empty((4, 2)), np.zeros((8, count))
     low, high = square

@@ -162,14 +162,14 @@ def fit_pixels(
     Place and levels come first, from few pixels; then everything; then from all pixels.
 
     Args:
-        start: First guess, shape (21,).
+        start: First guess, shape (23,).
         ink: From `printed`.
         pixels: Place x, y and grey value, shape (n, 3).
         half_px: Half diagonal of the marker, pixels.
-        most: How many numbers to fit: 21, or 18 without bows.
+        most: How many numbers to fit: 23, or 18 without bows.
 
     Returns:
-        The fit, shape (21,), its covariance, shape (most, most), the noise (grey values) and how
+        The fit, shape (23,), its covariance, shape (most, most), the noise (grey values) and how
         far the picture moved in the last round (px), infinite where there is no solution.
     """
     fit, covariance = start.copy(), np.zeros((most, most))

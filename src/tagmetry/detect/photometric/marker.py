@@ -64,12 +64,12 @@ def fit_marker(
     square: tuple[float, float],
     bows: bool,
 ) -> tuple[Array, Array, Array, float, float]:
-    """Return the fit, the corners (4, 2) and the covariance of corners and bows (11, 11).
+    """Return the fit, the corners (4, 2) and the covariance of corners and bows (13, 13).
 
     Both in units of the half diagonal, from the middle. After them the noise (grey values), and how
     far the picture moved in the last round (px), infinite where the fit failed.
     """
-    failed = np.zeros((11, 11))
+    failed = np.zeros((13, 13))
     pixels = gather(grey, ink, start, corners, frame, lens, square[1] - square[0])
     if len(pixels) < _LEAST_PIXELS:
         return start, corners, failed, 0.0, np.inf
@@ -80,7 +80,7 @@ def fit_marker(
     if not np.isfinite(moved_px):
         return fit, corners, failed, noise, moved_px
     places, by_fit = corners_of_fit(fit, lens, square, corners, most)
-    joint = np.zeros((11, most))
+    joint = np.zeros((13, most))
     joint[:8] = by_fit
     for k in range(BOWS, most):
         joint[8 + k - BOWS, k] = 1.0

@@ -14,7 +14,8 @@ The numbers of the fit, in this order:
     10..13  slopes of light along x and y: of black, of the contrast
     14      logarithm of the exponent
     15..17  the blur's covariance xx, xy, yy, with the pixel's own square in it
-    18..20  bows: what |x|^2 - 1 moves to the right and down, and outward
+    18..22  bows: what |x|^2 - 1 moves to the right and down; what x^2 - y^2 does, with -2 x y and
+            2 x y in the other direction; what |x|^2 - 1 moves outward
 """
 
 import numpy as np
@@ -24,7 +25,7 @@ from tagmetry.detect.photometric.kernel import kernel
 from tagmetry.geometry import Array
 
 BLACK, SLOPES, EXPONENT, BLUR, BOWS = 8, 10, 14, 15, 18
-COUNT = 21
+COUNT = 23
 _LEAST_LIGHT = 1e-7
 
 
@@ -34,6 +35,15 @@ def cells_at(fit: Array, x: float, y: float) -> tuple[float, float, float]:
     down = fit[6] * x + fit[7] * y + 1.0
     u = (fit[0] * x + fit[1] * y + fit[2]) / down
     return u, (fit[3] * x + fit[4] * y + fit[5]) / down, down
+
+
+@kernel
+def bent_place(fit: Array, x: float, y: float) -> tuple[float, float]:
+    """Return where a place would be if edges did not bow."""
+    far, saddle, twist = x * x + y * y - 1.0, x * x - y * y, 2 * x * y
+    a, b, c, d, barrel = fit[BOWS], fit[BOWS + 1], fit[BOWS + 2], fit[BOWS + 3], fit[BOWS + 4]
+    bent_x = x + far * (a + barrel * x) + c * saddle + d * twist
+    return bent_x, y + far * (b + barrel * y) - c * twist + d * saddle
 
 
 @kernel
@@ -49,17 +59,15 @@ def value_at(
     """Return the modelled grey value of a pixel, and write its derivatives by the fit.
 
     Args:
-        fit: The numbers, shape (21,).
+        fit: The numbers, shape (23,).
         levels: From `levels_of`.
         ink: From `printed`.
         x: Place of the pixel.
         y: Downward.
         edges: Room for the work, see `blurred`.
-        by_fit: Derivatives, written, shape (21,).
+        by_fit: Derivatives, written, shape (23,).
     """
-    far = x * x + y * y - 1.0
-    bent_x = x + far * (fit[BOWS] + fit[BOWS + 2] * x)
-    bent_y = y + far * (fit[BOWS + 1] + fit[BOWS + 2] * y)
+    bent_x, bent_y = bent_place(fit, x, y)
     u, v, down = cells_at(fit, bent_x, bent_y)
     ux, uy = (fit[0] - u * fit[6]) / down, (fit[1] - u * fit[7]) / down
     vx, vy = (fit[3] - v * fit[6]) / down, (fit[4] - v * fit[7]) / down
@@ -91,8 +99,11 @@ def value_at(
     by_fit[BLUR + 1] = by_blur_u * ux * uy + by_blur_v * vx * vy + by_mixed * (ux * vy + uy * vx)
     by_fit[BLUR + 2] = 0.5 * (by_blur_u * uy * uy + by_blur_v * vy * vy) + by_mixed * uy * vy
     by_x, by_y = by_u * ux + by_v * vx, by_u * uy + by_v * vy
+    far, saddle, twist = x * x + y * y - 1.0, x * x - y * y, 2 * x * y
     by_fit[BOWS], by_fit[BOWS + 1] = far * by_x, far * by_y
-    by_fit[BOWS + 2] = far * (by_x * x + by_y * y)
+    by_fit[BOWS + 2] = saddle * by_x - twist * by_y
+    by_fit[BOWS + 3] = twist * by_x + saddle * by_y
+    by_fit[BOWS + 4] = far * (by_x * x + by_y * y)
     return value
 
 

@@ -86,8 +86,8 @@ def fit_pictures(
         camera: Intrinsics, so that edges are followed along their curves.
     """
     count = len(corners_px)
-    corners, joint = np.zeros((count, 4, 2)), np.tile(np.eye(11), (count, 1, 1))
-    frames, bows, sound = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count, dtype=bool)
+    corners, joint = np.zeros((count, 4, 2)), np.tile(np.eye(13), (count, 1, 1))
+    frames, bows, sound = np.zeros((count, 3)), np.zeros((count, 5)), np.zeros(count, dtype=bool)
     for i, (first_px, picture) in enumerate(zip(corners_px, pictures, strict=True)):
         if not _is_square(first_px):
             continue
