@@ -112,6 +112,31 @@ def test_the_real_chessboard_with_its_shape_released_is_better_still() -> None:
     assert run.assessment.evidence.left_out.rms_px <= 0.125
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("board", "folder", "focal_px", "worst_px"),
+    [
+        ("grid:4x5:37.5mm:5mm:6x6_250", "grid_board", 811, 0.24),
+        ("aprilgrid:6x6:88mm:0.3", "mocap_aprilgrid/cam0/data", 609, 0.27),
+        ("charuco:9x7:40mm:20mm:4x4_100",
+         "small_sets/intrinsic_calib_charuco_test_images", 785, 0.56),
+        ("chessboard:11x8:20mm", "small_sets/eye_in_hand_test_data", 642, 0.06),
+    ],
+)  # fmt: skip
+def test_real_boards_of_markers_give_a_camera_that_shows_left_out_views(
+    board: str, folder: str, focal_px: float, worst_px: float
+) -> None:
+    """Most were refused once, or given a lens of wild coefficients."""
+    if not (DATA / folder).exists():
+        pytest.skip(f"no {DATA / folder}; TAGMETRY_DATA names the data folder")
+    request = Request(parse_board(board))
+    with open_source(DATA / folder) as source:
+        run = run_calibration(tuple(sightings(source, request.board)), request)
+    camera = run.calibration.camera
+    assert abs(camera.focal_px[0] - focal_px) < 3 * np.sqrt(camera.covariance[0, 0])
+    assert run.assessment.evidence.left_out.rms_px < worst_px
+
+
 def test_the_rendered_camera_is_found_within_what_is_stated() -> None:
     seen = [look(Image(pixels), BOARD) for pixels in rendered(9)]
     camera = run_calibration(seen, Request(BOARD, "none")).calibration.camera

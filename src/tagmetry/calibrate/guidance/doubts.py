@@ -53,13 +53,17 @@ def _uncertain_place(calibration: Calibration, evidence: Evidence) -> str | None
     uncertainty = evidence.uncertainty
     if not uncertainty.worst_px > _UNCERTAIN_PX:
         return None
-    sd_px = np.nan_to_num(uncertainty.sd_px[[0, 0, -1, -1], [0, -1, 0, -1]], nan=np.inf)
+    corners = [_px(sd) for sd in uncertainty.sd_px[[0, 0, -1, -1], [0, -1, 0, -1]]]
     return (
         f"projections are uncertain by {uncertainty.worst_px:.1f} px "
         f"{where(uncertainty.worst_pixel, calibration.camera.size_px)} (image corners: upper left "
-        f"{sd_px[0]:.1f}, upper right {sd_px[1]:.1f}, lower left {sd_px[2]:.1f}, lower right "
-        f"{sd_px[3]:.1f} px): {_shown_there(evidence)}"
+        f"{corners[0]}, upper right {corners[1]}, lower left {corners[2]}, lower right "
+        f"{corners[3]}): {_shown_there(evidence)}"
     )
+
+
+def _px(sd_px: float) -> str:
+    return f"{sd_px:.1f} px" if np.isfinite(sd_px) else "beyond the lens"
 
 
 def _shown_there(evidence: Evidence) -> str:

@@ -20,7 +20,8 @@ from tagmetry.calibrate.quality.projection import ProjectionUncertainty
 from tagmetry.calibrate.result import Calibration
 from tagmetry.markers import Board
 
-_GOOD_PX, _USABLE_PX = 0.5, 1.0  # at the worst place of the image, and at its median place
+_GOOD_PX = 0.5  # at the worst place of the image
+_USABLE_PX = 1.5  # at its median place: through a webcam's lens of 600 px, 2.5 mm at a metre
 _LIMITS = HoldingLimits()
 
 Grade = Literal["good", "usable", "poor"]
@@ -33,7 +34,7 @@ class Verdict:
     Attributes:
         words: The whole of it in a few sentences.
         grade: "good": within 0.5 px everywhere on the image, by eight views or more; "usable":
-            within 1 px on half of it; "poor": neither.
+            within 1.5 px on half of it; "poor": neither.
         fit_for: What it can be used for, each with the number that says so.
         warnings: What is weak and why, the worst first; they contain what the calibration warns of.
         next_view: The picture to add that helps most; None where no board was given, or none fits.
