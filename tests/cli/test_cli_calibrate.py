@@ -117,7 +117,11 @@ def test_the_few_views_that_tell_most(folder, capsys) -> None:
     ("board", "says"),
     [
         ("chessboard:8x6:30mm", "squares counted instead of inner corners"),
-        ("charuco:7x5:30mm:22mm:5x5_100", "a plain chessboard is seen"),
+        pytest.param(
+            "charuco:7x5:30mm:22mm:5x5_100",
+            "a plain chessboard is seen",
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_a_wrong_board_is_named_and_nothing_is_written(folder, tmp_path, board, says, capsys):
