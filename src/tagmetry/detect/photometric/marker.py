@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tagmetry.detect.photometric.behind import reaches_edges, with_surround
 from tagmetry.detect.photometric.corners import corners_of_fit
 from tagmetry.detect.photometric.fit import fit_pixels
 from tagmetry.detect.photometric.kernel import kernel
@@ -77,6 +78,9 @@ def fit_marker(
     start[BLACK], start[BLACK + 1] = _levels(start, ink, pixels)
     most = COUNT if bows else BOWS
     fit, covariance, noise, moved_px = fit_pixels(start, ink, pixels, frame[2], most)
+    if np.isfinite(moved_px) and reaches_edges(fit):
+        surrounded = with_surround(grey, ink, fit, frame, lens)
+        fit, covariance, noise, moved_px = fit_pixels(fit, surrounded, pixels, frame[2], most)
     if not np.isfinite(moved_px):
         return fit, corners, failed, noise, moved_px
     places, by_fit = corners_of_fit(fit, lens, square, corners, most)
