@@ -10,10 +10,12 @@ from functools import cache
 
 import numpy as np
 
-from tagmetry.detect.sample import bilinear, side_lengths, steps_across
-from tagmetry.geometry import Array, apply_homography, square_to_quad
+from tagmetry.detect.closest import closest
+from tagmetry.detect.sample import cell_means, side_lengths, steps_across
+from tagmetry.geometry import Array, square_to_quad
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import Layout, MarkerFamily
+from tagmetry.markers.packed import Words, packed
 
 _LEAST_CONTRAST = 8.0  # grey values between black and white
 _BORDER_ERRORS = 0.2  # share of border cells that may read white
@@ -21,16 +23,17 @@ _OUTSIDE_CELLS = 0.35  # how far outside the border white is looked for
 _EDGE_CELLS = 0.3  # how far inside and outside a side the image must differ
 _LEAST_OUTLINE = 0.3  # share of the contrast by which it must
 _SHARPEN = 0.25  # share of the difference to each neighbour that is added
-_TAPS = np.array([[-0.17, -0.17], [0.17, -0.17], [-0.17, 0.17], [0.17, 0.17]])  # cells
+_TAP_CELLS = 0.17  # how far from a cell's centre its four taps are
 
 
 @dataclass(frozen=True)
 class Reading:
-    """How one quadrilateral reads in one layout.
+    """How one quadrilateral reads in one layout; without a border, only that it has none.
 
     Attributes:
         margins: Of each bit, (value - threshold) / half the contrast, shape (bits,); white is
             positive.
+        words: Which of them are white, as bits.
         border_share: Share of the border's cells that read black.
         contrast: White minus black, grey values; negative where the marker is inverted.
         border_margin: Mean clearness of the border's cells.
@@ -40,6 +43,7 @@ class Reading:
     """
 
     margins: Array
+    words: Words
     border_share: float
     contrast: float
     border_margin: float
@@ -78,54 +82,59 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | 
         One reading each; None where black and white cannot be told apart.
     """
     H = square_to_quad(corners_px)
+    reach = _TAP_CELLS / layout.side_cells
     black_at, white_at = border_centres(layout), _outside(layout)
-    black = _sampled(grey, H, black_at, layout)
-    white = _sampled(grey, H, white_at, layout)
-    bits = _sampled(grey, H, layout.bit_centres, layout)
     if layout.white_border:
-        black, white, black_at, white_at = white, black, white_at, black_at
+        black_at, white_at = white_at, black_at
+    black, white = (cell_means(grey, H, at, reach) for at in (black_at, white_at))
     at = np.concatenate([black_at, layout.bit_centres])
     dark, bright = _plane(black_at, black, at), _plane(white_at, white, at)
     contrast = (bright - dark).mean(axis=1)
     half = np.where(np.abs(contrast) < _LEAST_CONTRAST, np.nan, contrast / 2)
-    margins = (np.concatenate([black, bits], axis=1) - (dark + bright) / 2) / half[:, None]
-    count = len(black_at)
-    cell_px = side_lengths(corners_px).mean(axis=1) / layout.side_cells
-    reaches_px = (np.ones(len(corners_px)), _EDGE_CELLS * cell_px)
-    steps = (steps_across(grey, corners_px, reach_px) for reach_px in reaches_px)
-    near, far = (np.clip(step / (2 * half[:, None]), 0, 1).mean(axis=1) for step in steps)
-    margins[:, count:] = margins @ _sharpening(layout).T
+    middle, count = (dark + bright) / 2, len(black_at)
+    border = (black - middle[:, :count]) / half[:, None]
+    share = (border < 0).mean(axis=1)
+    clear = -np.clip(border, -1, 1).mean(axis=1)
+    bits, near, far = np.zeros((len(H), layout.bit_count)), np.zeros(len(H)), np.zeros(len(H))
+    bordered = np.flatnonzero(share >= 1 - _BORDER_ERRORS)  # no more is read of the others
+    values = cell_means(grey, H[bordered], layout.bit_centres, reach)
+    inside = (values - middle[bordered, count:]) / half[bordered, None]
+    bits[bordered] = np.concatenate([border[bordered], inside], axis=1) @ _sharpening(layout).T
+    near[bordered], far[bordered] = _outlines(grey, corners_px[bordered], half[bordered], layout)
+    words = packed(bits > 0)
     return [
         None
         if np.isnan(half[i])
-        else Reading(
-            margins[i, count:],
-            float((margins[i, :count] < 0).mean()),
-            float(contrast[i]),
-            float(-np.clip(margins[i, :count], -1, 1).mean()),
-            float(near[i]),
-            float(far[i]),
-        )
-        for i in range(len(corners_px))
+        else Reading(bits[i], words[i], share[i], contrast[i], clear[i], near[i], far[i])
+        for i in range(len(H))
     ]
+
+
+def _outlines(
+    grey: GreyPixels, corners_px: Array, half: Array, layout: Layout
+) -> tuple[Array, Array]:
+    """Return how clearly the image steps across sides, within a pixel and within a cell, (n,)."""
+    cell_px = side_lengths(corners_px).mean(axis=1) / layout.side_cells
+    reaches_px = (np.ones(len(corners_px)), _EDGE_CELLS * cell_px)
+    steps = [steps_across(grey, corners_px, reach_px) for reach_px in reaches_px]
+    near, far = (np.clip(step / (2 * half[:, None]), 0, 1).mean(axis=1) for step in steps)
+    return near, far
 
 
 def nearest(reading: Reading, family: MarkerFamily) -> Match:
     """Return the marker of a family that differs in the fewest bits."""
-    signs = np.where(reading.margins > 0, 1.0, -1.0)
-    agreement = family.turned_codes @ signs
-    index = int(np.argmax(agreement))
-    bits = len(signs)
+    index, hamming = closest(reading.words, family.packed_codes)
+    bits = len(reading.margins)
     expected = family.turned_codes[index]
-    clear = np.clip(reading.margins * expected, -1, 1).mean()
+    clear = np.minimum(np.maximum(reading.margins * expected, -1), 1).mean()
     share = bits / (bits + len(border_centres(family.layout)))
     confidence = share * clear + (1 - share) * reading.border_margin
     return Match(
         family,
         id=index % len(family),
         quarters=index // len(family),
-        hamming=round((bits - agreement[index]) / 2),
-        confidence=float(np.clip(confidence, 0, 1)),
+        hamming=hamming,
+        confidence=float(min(max(confidence, 0.0), 1.0)),
     )
 
 
@@ -139,6 +148,7 @@ def has_outline(reading: Reading) -> bool:
     return max(reading.outline, reading.sharp_outline) >= _LEAST_OUTLINE
 
 
+@cache
 def border_centres(layout: Layout) -> Array:
     """Return the centres of the border's cells in units of the square's side, shape (n, 2)."""
     side, border = layout.side_cells, layout.border_cells
@@ -148,6 +158,7 @@ def border_centres(layout: Layout) -> Array:
     return (np.stack([columns, rows], axis=1) + 0.5) / side
 
 
+@cache
 def _outside(layout: Layout) -> Array:
     """Return places just outside the square, opposite the outermost border cells."""
     side = layout.side_cells
@@ -165,14 +176,6 @@ def _sharpening(layout: Layout) -> Array:
     beside = np.isclose(apart, 1.0)
     own = np.isclose(apart, 0.0)
     return np.asarray(own * (1 + _SHARPEN * beside.sum(axis=1))[:, None] - _SHARPEN * beside)
-
-
-def _sampled(grey: GreyPixels, H: Array, at: Array, layout: Layout) -> Array:
-    """Return the mean of four taps around places of the unit square, shape (n, k)."""
-    places = (at[:, None] + _TAPS / layout.side_cells).reshape(-1, 2)
-    pixels = apply_homography(H, np.broadcast_to(places, (len(H), *places.shape)))
-    values = bilinear(grey, pixels.reshape(-1, 2)).reshape(len(H), len(at), len(_TAPS))
-    return np.asarray(values.mean(axis=2))
 
 
 def _plane(at: Array, values: Array, wanted: Array) -> Array:

@@ -1,7 +1,7 @@
 """The detector: from an image to identified markers with sub-pixel corners.
 
-quads (squares in the image) -> decode (which marker) -> choose (one per place) -> refine (where
-exactly).
+segment (squares in the image) -> decode (which marker) -> choose (one per place) -> exact
+(where exactly).
 """
 
 from collections.abc import Iterable
@@ -22,7 +22,7 @@ from tagmetry.detect.detection import Detection, Findings, Rejection
 from tagmetry.detect.exact import exact_corners
 from tagmetry.detect.grey import grey_8bit
 from tagmetry.detect.photometric import Picture
-from tagmetry.detect.quads import quads
+from tagmetry.detect.segment import squares
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import AnyPixels, GreyPixels
@@ -39,8 +39,8 @@ class Detector:
         forgive_bits: Wrong bits to forgive, for all families; by default each family's own
             `forgiven_bits`. More than a family's `correction_bits` gives nearest codes, not ids.
         inverted: Look for markers printed white on black as well.
-        min_side_px: Sides of markers shorter than this are not looked for; by default 8, and more
-            in images of more than two megapixels.
+        min_side_px: Sides of markers shorter than this are not looked for; by default 8 in images
+            of up to half a megapixel, 16 in those of two to eight, and more in larger ones.
     """
 
     def __init__(
@@ -97,13 +97,13 @@ class Detector:
     def _judged(self, grey: GreyPixels, *, bright: bool) -> tuple[list[Candidate], list[Rejection]]:
         """Read every square of the image in every layout."""
         least_px = self.min_side_px or _default_min_side_px(grey)
-        squares = quads(grey, least_px, bright=bright)
+        found = squares(grey, least_px, bright=bright)
         candidates: list[Candidate] = []
         rejections: list[Rejection] = []
         for layout, families in self._families_by_layout.items():
-            readings = read(grey, squares.corners_px, layout)
+            readings = read(grey, found.corners_px, layout)
             for corners, is_bright, reading in zip(
-                squares.corners_px, squares.is_bright, readings, strict=True
+                found.corners_px, found.is_bright, readings, strict=True
             ):
                 verdict = self.rules.judge(corners, bool(is_bright), reading, families)
                 if isinstance(verdict, Candidate):
@@ -142,7 +142,8 @@ def _picture(candidate: Candidate) -> Picture:
 
 
 def _default_min_side_px(grey: GreyPixels) -> float:
-    return 8.0 * max(1.0, float(np.sqrt(grey.size / 2e6)))
+    small_px, large_px = np.sqrt([grey.size / 5e5, grey.size / 2e6])
+    return 8.0 * max(1.0, min(2.0, float(small_px)), float(large_px))
 
 
 def _touches_border(corners_px: Array, grey: GreyPixels) -> bool:

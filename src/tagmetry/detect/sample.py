@@ -1,6 +1,7 @@
 """Grey values between pixels, and how an image steps across the sides of squares."""
 
 import numpy as np
+from numba import njit
 
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
@@ -19,13 +20,7 @@ def steps_across(grey: GreyPixels, corners_px: Array, reach_px: Array) -> Array:
     Returns:
         Grey values at ten places along each side, shape (n, 40).
     """
-    along = np.roll(corners_px, -1, axis=1) - corners_px
-    length_px = np.maximum(np.linalg.norm(along, axis=2, keepdims=True), 1e-9)
-    outward = np.stack([along[..., 1], -along[..., 0]], axis=-1) / length_px
-    on = corners_px[:, :, None] + _ALONG[:, None] * along[:, :, None]
-    off = reach_px[:, None, None, None] * outward[:, :, None]
-    outside, inside = (bilinear(grey, at.reshape(-1, 2)) for at in (on + off, on - off))
-    return (outside - inside).reshape(len(corners_px), 4 * len(_ALONG))
+    return _steps(grey, np.ascontiguousarray(corners_px), reach_px)
 
 
 def side_lengths(corners_px: Array) -> Array:
@@ -34,14 +29,58 @@ def side_lengths(corners_px: Array) -> Array:
     return np.asarray(np.linalg.norm(sides, axis=2))
 
 
-def bilinear(grey: GreyPixels, pixels: Array) -> Array:
-    """Return grey values between pixels, shape (n,); the image's edge is repeated outside."""
-    height_px, width_px = grey.shape
-    x = np.clip(np.nan_to_num(pixels[:, 0]), 0, width_px - 1.001)
-    y = np.clip(np.nan_to_num(pixels[:, 1]), 0, height_px - 1.001)
-    column, row = x.astype(np.intp), y.astype(np.intp)
+def cell_means(grey: GreyPixels, H: Array, at: Array, reach: float) -> Array:
+    """Return the mean of four places around each point of a square, shape (n, k).
+
+    Args:
+        grey: 8-bit image.
+        H: From the unit square to pixels, shape (n, 3, 3).
+        at: Points of the unit square, shape (k, 2).
+        reach: How far beside and above each point it is looked at, sides of the square.
+    """
+    return _cell_means(grey, np.ascontiguousarray(H), np.ascontiguousarray(at), reach)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")  # on the horizon 1 / 0 is no place
+def _cell_means(grey: GreyPixels, H: Array, at: Array, reach: float) -> Array:
+    means = np.zeros((len(H), len(at)))
+    for i in range(len(H)):
+        for k in range(len(at)):
+            for tap in range(4):
+                u = at[k, 0] + (reach if tap % 2 else -reach)
+                v = at[k, 1] + (reach if tap >= 2 else -reach)
+                w = H[i, 2, 0] * u + H[i, 2, 1] * v + H[i, 2, 2]
+                x = (H[i, 0, 0] * u + H[i, 0, 1] * v + H[i, 0, 2]) / w
+                y = (H[i, 1, 0] * u + H[i, 1, 1] * v + H[i, 1, 2]) / w
+                means[i, k] += bilinear(grey, x, y) / 4
+    return means
+
+
+@njit(cache=True, nogil=True)
+def _steps(grey: GreyPixels, corners_px: Array, reach_px: Array) -> Array:
+    count = len(_ALONG)
+    steps = np.empty((len(corners_px), 4 * count))
+    for i in range(len(corners_px)):
+        for side in range(4):
+            x, y = corners_px[i, side]
+            along_x, along_y = corners_px[i, (side + 1) % 4] - corners_px[i, side]
+            reach = reach_px[i] / max(np.hypot(along_x, along_y), 1e-9)
+            out_x, out_y = reach * along_y, -reach * along_x
+            for k in range(count):
+                on_x, on_y = x + _ALONG[k] * along_x, y + _ALONG[k] * along_y
+                outside = bilinear(grey, on_x + out_x, on_y + out_y)
+                inside = bilinear(grey, on_x - out_x, on_y - out_y)
+                steps[i, side * count + k] = outside - inside
+    return steps
+
+
+@njit(cache=True, nogil=True)
+def bilinear(grey: GreyPixels, x: float, y: float) -> float:
+    """Return the grey value between pixels; the image's edge is repeated outside."""
+    x = min(max(x, 0.0), grey.shape[1] - 1.001) if np.isfinite(x) else 0.0
+    y = min(max(y, 0.0), grey.shape[0] - 1.001) if np.isfinite(y) else 0.0
+    column, row = int(x), int(y)
     right, down = x - column, y - row
-    flat, first = grey.ravel(), row * width_px + column
-    above = flat[first] * (1 - right) + flat[first + 1] * right
-    below = flat[first + width_px] * (1 - right) + flat[first + width_px + 1] * right
-    return np.asarray(above * (1 - down) + below * down)
+    above = grey[row, column] * (1 - right) + grey[row, column + 1] * right
+    below = grey[row + 1, column] * (1 - right) + grey[row + 1, column + 1] * right
+    return float(above * (1 - down) + below * down)

@@ -9,6 +9,7 @@ import numpy as np
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import Array, BoolArray
 from tagmetry.markers.layout import Layout
+from tagmetry.markers.packed import Words, packed
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +86,11 @@ class MarkerFamily:
         turned = self.codes[:, self.layout.rotations]
         stacked = np.swapaxes(turned, 0, 1).reshape(-1, self.layout.bit_count)
         return np.where(stacked, 1.0, -1.0)
+
+    @cached_property
+    def packed_codes(self) -> Words:
+        """The turned codes as bits in words, shape (4 * ids, words)."""
+        return packed(self.turned_codes > 0)
 
     def minimum_distance(self) -> int:
         """Return the least number of differing bits of two markers, or of one and itself turned."""

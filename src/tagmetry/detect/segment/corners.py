@@ -9,10 +9,12 @@ points between its corners, their ends left out.
 import numpy as np
 from numba import njit
 
-from tagmetry.geometry.arrays import Array
+from tagmetry.geometry.arrays import Array, IntArray
 
-_STRAIGHT = 0.04  # how far an outline may stray from four lines, as a share of its length
+_STRAIGHT = 0.03  # how far an outline may stray from four lines, as a share of its length
 _STRAIGHT_PX = 1.0
+_ROUGH = 0.02  # how far points may lie from their side's line, as a share of its length, rms
+_ROUGH_PX = 0.6
 _LEAST_ANGLE_SINE = 0.2
 
 
@@ -33,12 +35,13 @@ def four_corners(points: Array, outset_px: float, corners: Array) -> bool:
     for side in range(4):
         if indices[side + 1] - indices[side] < 4:
             return False
-        _fit_line(points, indices[side], indices[side + 1], outset_px, lines[side])
+        if not _fit_line(points, indices[side], indices[side + 1], outset_px, lines[side]):
+            return False
     return _meet(lines, corners)
 
 
 @njit(cache=True, nogil=True)
-def _four_far_points(points: Array, indices: Array) -> bool:
+def _four_far_points(points: Array, indices: IntArray) -> bool:
     """Write the indices of the four corners in order; say whether four describe the outline."""
     n = len(points)
     middle_x, middle_y = points[:, 0].mean(), points[:, 1].mean()
@@ -56,7 +59,7 @@ def _four_far_points(points: Array, indices: Array) -> bool:
             stray[k], at[k] = _strays(points, indices[k], end)
         worst = stray[:known].argmax()
         if known == 4:
-            return stray[worst] <= max(_STRAIGHT_PX, _STRAIGHT * _way_around(points, indices))
+            return bool(stray[worst] <= max(_STRAIGHT_PX, _STRAIGHT * _way(points, indices)))
         for k in range(known, worst + 1, -1):
             indices[k] = indices[k - 1]
         indices[worst + 1] = at[worst]
@@ -90,7 +93,7 @@ def _strays(points: Array, begin: int, end: int) -> tuple[float, int]:
 
 
 @njit(cache=True, nogil=True)
-def _way_around(points: Array, indices: Array) -> float:
+def _way(points: Array, indices: IntArray) -> float:
     n, way = len(points), 0.0
     for k in range(4):
         a, b = points[indices[k] % n], points[indices[(k + 1) % 4] % n]
@@ -99,27 +102,31 @@ def _way_around(points: Array, indices: Array) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _fit_line(points: Array, begin: int, end: int, outset_px: float, line: Array) -> None:
-    """Write (point, unit direction) of the least-squares line between two corners."""
+def _fit_line(points: Array, begin: int, end: int, outset_px: float, line: Array) -> bool:
+    """Write (point, unit direction) of a side's least-squares line; say whether it is straight."""
     n = len(points)
     trim = (end - begin) // 8
     count = end - begin - 2 * trim
-    sx = sy = sxx = sxy = syy = 0.0
     from_x, from_y = points[begin % n]
+    x = y = xx = xy = yy = 0.0
     for i in range(begin + trim, end - trim):
         j = i if i < n else i - n
-        x, y = points[j, 0] - from_x, points[j, 1] - from_y
-        sx, sy = sx + x, sy + y
-        sxx, sxy, syy = sxx + x * x, sxy + x * y, syy + y * y
-    sx, sy = sx / count, sy / count
-    angle = 0.5 * np.arctan2(2 * (sxy / count - sx * sy), sxx / count - sx * sx - syy / count + sy * sy)
-    along_x, along_y = np.cos(angle), np.sin(angle)
+        dx, dy = points[j, 0] - from_x, points[j, 1] - from_y
+        x, y = x + dx / count, y + dy / count
+        xx, xy, yy = xx + dx * dx / count, xy + dx * dy / count, yy + dy * dy / count
+    xx, xy, yy = xx - x * x, xy - x * y, yy - y * y
     chord_x, chord_y = points[end % n, 0] - from_x, points[end % n, 1] - from_y
-    if along_x * chord_x + along_y * chord_y < 0:
-        along_x, along_y = -along_x, -along_y
-    # clockwise as seen with y down: outward is (along_y, -along_x)
-    line[0], line[1] = from_x + sx + outset_px * along_y, from_y + sy - outset_px * along_x
-    line[2], line[3] = along_x, along_y
+    angle = 0.5 * np.arctan2(2 * xy, xx - yy)
+    ux, uy = np.cos(angle), np.sin(angle)
+    if ux * chord_x + uy * chord_y < 0:
+        ux, uy = -ux, -uy
+    across2 = xx * uy * uy - 2 * xy * ux * uy + yy * ux * ux
+    line[0], line[1] = (
+        from_x + x + outset_px * uy,
+        from_y + y - outset_px * ux,
+    )  # outward: (uy, -ux)
+    line[2], line[3] = ux, uy
+    return bool(across2 <= max(_ROUGH_PX, _ROUGH * np.hypot(chord_x, chord_y)) ** 2)
 
 
 @njit(cache=True, nogil=True)

@@ -86,4 +86,4 @@ def _crossing(
     if bright <= dark:
         return 0.5
     level = levels[y // TILE_PX, x // TILE_PX] - 0.5
-    return min(max((level - dark) / (bright - dark), 0.0), 1.0)
+    return float(min(max((level - dark) / (bright - dark), 0.0), 1.0))

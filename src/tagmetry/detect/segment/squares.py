@@ -11,12 +11,14 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from tagmetry.detect.segment.distinct import distinct
 from tagmetry.detect.segment.look import Look, Tiled, dark_squares
 from tagmetry.geometry.arrays import Array, BoolArray, GreyPixels
 
 _FULL_BELOW_PX = 32.0  # the full image is looked at where sides may be shorter than this
 _DOUBLE_BELOW_PX = 10.0
 _LEAST_IMAGE_PX = 8
+_SLACK = 0.9  # blur rounds corners off, so that squares look smaller at first
 _LEVELS = Look(0.35), Look(0.5), Look(0.7)
 _THIN = Look(0.5, thinned=True)
 
@@ -35,30 +37,35 @@ class Squares:
 
 
 def squares(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
-    """Return outlines with four sides; a square once for each look that saw it.
+    """Return outlines with four sides; squares that two looks saw differently are there twice.
 
     Args:
         grey: 8-bit image.
         min_side_px: Sides shorter than this are passed over.
         bright: Bright squares on dark as well.
     """
-    dark_px = np.concatenate(list(_looks(grey, min_side_px)))
+    dark_px = _seen(grey, min_side_px)
     if not bright:
         return Squares(dark_px, np.zeros(len(dark_px), dtype=bool))
-    bright_px = np.concatenate(list(_looks(np.asarray(255 - grey, dtype=np.uint8), min_side_px)))
+    bright_px = _seen(np.asarray(255 - grey, dtype=np.uint8), min_side_px)
     is_bright = np.repeat([False, True], [len(dark_px), len(bright_px)])
     return Squares(np.concatenate([dark_px, bright_px]), is_bright)
+
+
+def _seen(grey: GreyPixels, min_side_px: float) -> Array:
+    """Return the dark squares of all looks, those alike once, shape (n, 4, 2)."""
+    corners_px = np.concatenate(list(_looks(grey, min_side_px)))
+    return corners_px[distinct(corners_px)]
 
 
 def _looks(grey: GreyPixels, min_side_px: float) -> Iterator[Array]:
     """Give the dark squares of each look, pixels of the image."""
     yield np.empty((0, 4, 2))
     for scale, looks in _plan(min_side_px).items():
-        image = _scaled(grey, scale)
-        if min(image.shape) >= _LEAST_IMAGE_PX:
-            tiled = Tiled.of(image)
+        if scale * min(grey.shape) >= _LEAST_IMAGE_PX:
+            tiled = Tiled.of(_scaled(grey, scale))
             for look in looks:
-                corners = dark_squares(tiled, look, scale * min_side_px)
+                corners = dark_squares(tiled, look, _SLACK * scale * min_side_px)
                 yield (corners + 0.5) / scale - 0.5
 
 

@@ -1,0 +1,39 @@
+"""Which code differs from what was read in the fewest bits?"""
+
+import numpy as np
+from numba import njit
+
+from tagmetry.markers.packed import Words
+
+_PAIRS = np.uint64(0x5555555555555555)
+_FOURS = np.uint64(0x3333333333333333)
+_EIGHTS = np.uint64(0x0F0F0F0F0F0F0F0F)
+_ONES = np.uint64(0x0101010101010101)
+_ONE, _TWO, _FOUR, _TOP = np.uint64(1), np.uint64(2), np.uint64(4), np.uint64(56)
+
+
+@njit(cache=True, nogil=True)
+def closest(read: Words, codes: Words) -> tuple[int, int]:
+    """Return the index of the first of the nearest codes, and the number of differing bits.
+
+    Args:
+        read: One code in words, shape (words,).
+        codes: Shape (n, words).
+    """
+    best, fewest = 0, 64 * read.size + 1
+    for index in range(len(codes)):
+        differing = 0
+        for word in range(read.size):
+            differing += _count(codes[index, word] ^ read[word])
+        if differing < fewest:
+            best, fewest = index, differing
+    return best, fewest
+
+
+@njit(cache=True, nogil=True)
+def _count(word: np.uint64) -> int:
+    """Return the number of ones in a word, added up in parallel: in pairs, in fours, in eights."""
+    word -= (word >> _ONE) & _PAIRS
+    word = (word & _FOURS) + ((word >> _TWO) & _FOURS)
+    word = (word + (word >> _FOUR)) & _EIGHTS
+    return int((word * _ONES) >> _TOP)
