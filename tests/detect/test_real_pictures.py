@@ -64,7 +64,9 @@ def test_the_same_tags_as_the_apriltag_library(count: int | None) -> None:
     for path in pictures("yaw_sweep", "*.png")[:count]:
         picture = grey(path)
         found, theirs = Detector().detect(picture), oracle.detect(picture)
-        assert sorted(ids(found)) == sorted(tag.tag_id for tag in theirs), path.name
+        beyond = {d.id for d in found} - {tag.tag_id for tag in theirs}
+        assert len(found) == len(theirs) + len(beyond), path.name
+        assert beyond <= {22}, "a tag of 10 px that the library does not see"
         total += len(found)
         for tag in theirs:
             match = at(found, tag.corners[::-1] - 0.5)
@@ -74,7 +76,7 @@ def test_the_same_tags_as_the_apriltag_library(count: int | None) -> None:
             apart.extend(np.linalg.norm(match.corners_px - (tag.corners[::-1] - 0.5), axis=1))
     assert np.median(apart) < 0.3
     assert np.percentile(apart, 98) < 1.3  # stair-stepped sides of the rotated tags
-    assert total == 71 or count is not None
+    assert total == 72 or count is not None
 
 
 @pytest.mark.parametrize("count", [4, ALL])
@@ -179,7 +181,7 @@ def test_a_walk_through_a_house(count: int, least: int) -> None:
         pytest.param("rs/two_boards.png", 72, marks=pytest.mark.slow),
         *(
             pytest.param(f"py/00{i}.jpg", n, marks=pytest.mark.slow)
-            for i, n in enumerate([36, 36, 36, 36, 21])
+            for i, n in enumerate([36, 36, 36, 36, 22])
         ),
     ],
 )
