@@ -39,6 +39,7 @@ docs: $(VENV)/dev.stamp ## Build the documentation into site/
 pages: $(VENV)/dev.stamp ## Make the pictures and the command reference of the docs anew
 	$(BIN)/python docs/make_pictures.py
 	$(BIN)/python docs/make_effects.py
+	$(BIN)/python docs/make_calibration_pictures.py
 	$(BIN)/python docs/make_pages.py
 
 bench: $(VENV)/dev.stamp ## Time detection and pose against the peers

@@ -1,2 +1,2 @@
-tagmetry calibrate boards --board chessboard:7x5:30mm --model brown1 \
+tagmetry calibrate boards --board chessboard:7x5:30mm \
   --out webcam.yaml --report webcam.html --csv tables
