@@ -10,8 +10,8 @@ from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import Board
 from tagmetry.twin import Optics, Scene, Shot, photograph
+from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.scenes import Still, board_thing
-from tagmetry.twin.sensor import Sensor
 
 FOCAL_PX = 700.0
 
