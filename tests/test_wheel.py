@@ -50,7 +50,8 @@ def test_says_what_it_needs(wheel: ZipFile) -> None:
     metadata = read_metadata(wheel)
     assert metadata["Requires-Python"] == [">=3.11"]
     assert metadata["License-Expression"] == ["Apache-2.0"]
-    assert set(metadata["Provides-Extra"]) == {"all", "bench", "parquet", "print", "video"}
+    extras = {"all", "bench", "parquet", "print", "report", "video"}
+    assert set(metadata["Provides-Extra"]) == extras
 
 
 def test_every_requirement_of_the_wheel_is_pinned(wheel: ZipFile) -> None:

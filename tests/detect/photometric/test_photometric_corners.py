@@ -7,7 +7,7 @@ derived from the edges alone. Neither shares a formula with the fit.
 import cv2
 import numpy as np
 import pytest
-from seen_markers import BLACK, WHITE, encoded, errors, picture_of, seen
+from photographed_markers import BLACK, WHITE, encoded, errors, picture_of, seen
 
 from tagmetry.detect.photometric import Picture, fit_pictures
 from tagmetry.detect.photometric.bound import Print, corner_bound_px

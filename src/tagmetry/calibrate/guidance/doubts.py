@@ -15,6 +15,7 @@ _SIGNIFICANT = 2.0  # standard deviations
 _TOO_SMALL = 1.5  # times the formula's standard deviation
 _DECISIVE = 2.0  # standard deviations that one view moves the camera
 _FLAT_DEG = 15.0
+_NEGLIGIBLE_PX = 0.03  # a pattern in the residuals that moves nothing anyone measures
 _BROWN = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tx", "ty")
 _FISHEYE = ("k1", "k2", "k3", "k4")
 
@@ -147,7 +148,7 @@ def _dependent(calibration: Calibration) -> str | None:
 
 def _board_off(evidence: Evidence) -> str | None:
     board = evidence.residuals.over_board
-    if not board.is_pattern:
+    if not board.is_pattern or board.rms_px < _NEGLIGIBLE_PX:
         return None
     return (
         f"the board's points are off by {board.rms_px:.2f} px in the same way in all views (noise "
@@ -158,7 +159,7 @@ def _board_off(evidence: Evidence) -> str | None:
 
 def _lens_off(evidence: Evidence) -> str | None:
     rings = evidence.residuals.over_radius
-    if not rings.is_pattern:
+    if not rings.is_pattern or rings.rms_px < _NEGLIGIBLE_PX:
         return None
     return (
         f"errors follow the radius by {rings.rms_px:.2f} px (noise alone: "

@@ -8,8 +8,8 @@ All edges of all cells tell of the same eight numbers, so the noise of a corner 
 possible; edges of both polarities tell the camera's response from the marker's size, so a gamma
 curve does not move the sides.
 
-Reference: T. Tommasini et al. showed for single edges, and Kallwies et al. (ICRA 2020) for tags,
-what is gained by fitting the image itself; the bound is in `bound`.
+The bound is in `bound`. Reference: J. Kallwies, B. Forkel, H.-J. Wuensche, ICRA 2020, gained from
+the same idea along the border of tags.
 """
 
 from collections.abc import Sequence
