@@ -102,12 +102,12 @@ def _views_and_start(
 ) -> tuple[Bundle, Sightings, Wanted]:
     views = seen(camera, count, rng, **kind)
     sightings, wanted = gather(views), Wanted(lens)
-    poses = [_pose(camera, view) for view in views]
+    poses = [pose_of(camera, view) for view in views]
     R, t = (np.array(part) for part in zip(*poses, strict=True))
     return Bundle(wanted.kind, camera.intrinsics, R, t, sightings.p_board), sightings, wanted
 
 
-def _pose(camera: Truth, view: BoardView) -> tuple[np.ndarray, np.ndarray]:
+def pose_of(camera: Truth, view: BoardView) -> tuple[np.ndarray, np.ndarray]:
     D = np.array(camera.coefficients) if camera.coefficients else None
     corners = view.corners_px[:, None]
     undistort = cv2.fisheye.undistortPoints if camera.fisheye else cv2.undistortPoints
