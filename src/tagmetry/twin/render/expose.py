@@ -27,7 +27,7 @@ from tagmetry.twin.render.paint import painted
 from tagmetry.twin.render.shot import Shot
 from tagmetry.twin.scenes.scene import Scene
 
-_TILE_PX = 192
+_TILE_PX = 256
 _LOOKED_AT = 3  # moments of an exposure, to find how steeply sheets are seen
 
 
