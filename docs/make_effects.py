@@ -13,7 +13,7 @@ from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import CharucoBoard, cube
 from tagmetry.twin import Optics, Scene, Shot, Shutter, photograph
 from tagmetry.twin.optics import Gamma, Hdr, Sensor, ThinLens, Vignetting
-from tagmetry.twin.render import DigitalZoom
+from tagmetry.twin.rendering import DigitalZoom
 from tagmetry.twin.scenes import (
     Lamp,
     Light,

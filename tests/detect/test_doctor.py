@@ -11,7 +11,7 @@ from tagmetry.detect.doctor.edges import principal_blurs_px, side_blurs_px
 from tagmetry.errors import InputError
 from tagmetry.geometry import RigidTransform
 from tagmetry.markers import MountedMarker, family
-from tagmetry.twin.render import Look, render
+from tagmetry.twin.rendering import Look, render
 
 CAMERA = Camera(640, 480, (600.0, 600.0), (319.5, 239.5))
 FACING = Rotation.from_matrix(np.diag([1.0, -1.0, -1.0]))

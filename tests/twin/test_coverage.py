@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tagmetry.geometry.arrays import Array
-from tagmetry.twin.render.coverage import footprint_means
+from tagmetry.twin.rendering.coverage import footprint_means
 
 CELLS = np.random.default_rng(0).random((7, 9))
 

@@ -7,7 +7,7 @@ from tagmetry.camera import Camera, FisheyeLens
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.twin import Optics, Scene, Shot, Shutter, Thing, exposed
-from tagmetry.twin.render import expose
+from tagmetry.twin.rendering import expose
 from tagmetry.twin.scenes import Dot, Lamp, Light, Sheet, Steady, Still
 
 CAMERA = Camera(240, 200, (300.0, 300.0), (119.5, 99.5))

@@ -11,7 +11,7 @@ from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import CharucoBoard, MountedMarker, marker_corners_m
 from tagmetry.twin import Optics, Scene, Shot, Shutter
 from tagmetry.twin.optics.thin_lens import ThinLens
-from tagmetry.twin.render import DigitalZoom
+from tagmetry.twin.rendering import DigitalZoom
 from tagmetry.twin.scenes import Steady, Still, board_thing, marker_thing, surface
 from tagmetry.twin.truth import MarkerTruth, image_truth, truth_line
 

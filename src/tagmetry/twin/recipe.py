@@ -8,9 +8,9 @@ import numpy as np
 
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.twin.render.photograph import photograph
-from tagmetry.twin.render.seen import seen_sheets
-from tagmetry.twin.render.shot import Shot
+from tagmetry.twin.rendering.photograph import photograph
+from tagmetry.twin.rendering.seen import seen_sheets
+from tagmetry.twin.rendering.shot import Shot
 from tagmetry.twin.scenes.scene import Scene
 from tagmetry.twin.truth import ImageTruth, image_truth
 

@@ -13,7 +13,7 @@ from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import MountedMarker, cube
 from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.optics.vignetting import Vignetting
-from tagmetry.twin.render import Optics, Shot
+from tagmetry.twin.rendering import Optics, Shot
 from tagmetry.twin.scenes import Lamp, Light, Scene, Still, marker_thing
 from tagmetry.twin.scenes.furniture import box
 from tagmetry.twin.scenes.ready.building import plaster

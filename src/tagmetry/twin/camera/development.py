@@ -16,7 +16,7 @@ from tagmetry.twin.camera.readout import Readout, coarser, finer, readout
 from tagmetry.twin.camera.setting import Setting
 from tagmetry.twin.optics.sensor import developed
 from tagmetry.twin.optics.spread import gaussian_kernel
-from tagmetry.twin.render import Optics, Shot, Shutter, exposed
+from tagmetry.twin.rendering import Optics, Shot, Shutter, exposed
 from tagmetry.twin.scenes import Path, Scene
 
 _DISC_PER_PIXEL = 8.0  # least radius of the discs by a pixel's side, where pixels are made larger

@@ -22,8 +22,8 @@ from tagmetry.twin.optics.response import Curve, Gamma, Hdr, Linear, Response, S
 from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.optics.thin_lens import ThinLens
 from tagmetry.twin.optics.vignetting import Vignetting
-from tagmetry.twin.render.crop import DigitalZoom
-from tagmetry.twin.render.shot import Optics, Shot, Shutter
+from tagmetry.twin.rendering.crop import DigitalZoom
+from tagmetry.twin.rendering.shot import Optics, Shot, Shutter
 from tagmetry.twin.scene_files.fields import (
     Length,
     NotNegative,

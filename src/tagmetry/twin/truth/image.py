@@ -12,8 +12,8 @@ import numpy as np
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.markers import MountedMarker
-from tagmetry.twin.render.seen import SeenSheet, seen_sheets
-from tagmetry.twin.render.shot import Shot
+from tagmetry.twin.rendering.seen import SeenSheet, seen_sheets
+from tagmetry.twin.rendering.shot import Shot
 from tagmetry.twin.scenes.scene import Scene
 from tagmetry.twin.scenes.thing import Thing
 from tagmetry.twin.truth.places import places_px

@@ -14,7 +14,7 @@ import numpy as np
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 from tagmetry.twin.optics.rays import Rays
-from tagmetry.twin.render.view import View
+from tagmetry.twin.rendering.view import View
 from tagmetry.twin.scenes.path import Path
 
 _TURNS = 100

@@ -13,10 +13,10 @@ import numpy as np
 
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.markers import MountedMarker
-from tagmetry.twin.render.coverage import footprint_means
-from tagmetry.twin.render.grid import Grid
-from tagmetry.twin.render.seen import SeenSheet, covered_box
-from tagmetry.twin.render.view import View
+from tagmetry.twin.rendering.coverage import footprint_means
+from tagmetry.twin.rendering.grid import Grid
+from tagmetry.twin.rendering.seen import SeenSheet, covered_box
+from tagmetry.twin.rendering.view import View
 from tagmetry.twin.scenes.sheet import Sheet
 from tagmetry.twin.scenes.thing import Thing
 

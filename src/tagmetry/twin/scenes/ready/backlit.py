@@ -9,7 +9,7 @@ from tagmetry.twin.optics.response import Hdr
 from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.optics.vignetting import Vignetting
 from tagmetry.twin.recipe import Recipe
-from tagmetry.twin.render.shot import Optics, Shot
+from tagmetry.twin.rendering.shot import Optics, Shot
 from tagmetry.twin.scenes.furniture import box
 from tagmetry.twin.scenes.light import Light
 from tagmetry.twin.scenes.path import Path, Still, looking

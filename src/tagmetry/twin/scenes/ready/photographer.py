@@ -6,7 +6,7 @@ from tagmetry.camera import BrownLens, Camera
 from tagmetry.twin.optics.response import Linear, Srgb
 from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.optics.vignetting import Vignetting
-from tagmetry.twin.render.shot import Optics, Shot, Shutter
+from tagmetry.twin.rendering.shot import Optics, Shot, Shutter
 from tagmetry.twin.scenes.path import Path
 
 

@@ -9,7 +9,7 @@ from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import Board
 from tagmetry.twin.optics.rays import Rays
 from tagmetry.twin.recipe import Recipe
-from tagmetry.twin.render.shot import Shot
+from tagmetry.twin.rendering.shot import Shot
 from tagmetry.twin.scenes.furniture import clutter
 from tagmetry.twin.scenes.held import Held
 from tagmetry.twin.scenes.light import Lamp, Light

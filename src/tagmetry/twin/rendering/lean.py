@@ -17,8 +17,8 @@ import numpy as np
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array
 from tagmetry.twin.optics.rays import Rays
-from tagmetry.twin.render.box import Box
-from tagmetry.twin.render.seen import SeenSheet
+from tagmetry.twin.rendering.box import Box
+from tagmetry.twin.rendering.seen import SeenSheet
 
 _PER_SIDE = 3  # rays looked at along a box
 _STEEPEST = 1e4

@@ -8,13 +8,13 @@ import numpy as np
 
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.arrays import FloatImage
-from tagmetry.twin.render.box import Box
-from tagmetry.twin.render.canvas import Patch
-from tagmetry.twin.render.coverage import footprint_means
-from tagmetry.twin.render.dots import disc_shares
-from tagmetry.twin.render.grid import Grid
-from tagmetry.twin.render.seen import SeenSheet, covered_box
-from tagmetry.twin.render.view import View
+from tagmetry.twin.rendering.box import Box
+from tagmetry.twin.rendering.canvas import Patch
+from tagmetry.twin.rendering.coverage import footprint_means
+from tagmetry.twin.rendering.dots import disc_shares
+from tagmetry.twin.rendering.grid import Grid
+from tagmetry.twin.rendering.seen import SeenSheet, covered_box
+from tagmetry.twin.rendering.view import View
 from tagmetry.twin.scenes.light import Light
 from tagmetry.twin.scenes.sheet import Dot, Print, Sheet
 

@@ -11,12 +11,12 @@ import numpy as np
 
 from tagmetry.geometry import Array
 from tagmetry.twin.optics.rays import Rays
-from tagmetry.twin.render.box import Box
-from tagmetry.twin.render.fineness import LARGEST_DISC_PX, gaussian_reach_px
-from tagmetry.twin.render.hits import hits_m
-from tagmetry.twin.render.seen import SeenSheet, seen_sheets
-from tagmetry.twin.render.shot import Shot
-from tagmetry.twin.render.view import View
+from tagmetry.twin.rendering.box import Box
+from tagmetry.twin.rendering.fineness import LARGEST_DISC_PX, gaussian_reach_px
+from tagmetry.twin.rendering.hits import hits_m
+from tagmetry.twin.rendering.seen import SeenSheet, seen_sheets
+from tagmetry.twin.rendering.shot import Shot
+from tagmetry.twin.rendering.view import View
 from tagmetry.twin.scenes.scene import Scene
 
 _LEAST_STEP_PX, _MOST_STEP_PX = 0.25, 1.0

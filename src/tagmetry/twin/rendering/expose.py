@@ -16,15 +16,15 @@ from tagmetry.geometry.arrays import FloatImage
 from tagmetry.twin.optics.spread import Spread
 from tagmetry.twin.optics.spread_pixels import spread_pixels
 from tagmetry.twin.optics.vignetting import vignetted
-from tagmetry.twin.render.box import Box, tiles
-from tagmetry.twin.render.canvas import Canvas
-from tagmetry.twin.render.fineness import fine_of, gaussian_reach_px
-from tagmetry.twin.render.grid import Grid
-from tagmetry.twin.render.layered import layered
-from tagmetry.twin.render.lean import moved_px
-from tagmetry.twin.render.moments import Moment, moments
-from tagmetry.twin.render.paint import painted
-from tagmetry.twin.render.shot import Shot
+from tagmetry.twin.rendering.box import Box, tiles
+from tagmetry.twin.rendering.canvas import Canvas
+from tagmetry.twin.rendering.fineness import fine_of, gaussian_reach_px
+from tagmetry.twin.rendering.grid import Grid
+from tagmetry.twin.rendering.layered import layered
+from tagmetry.twin.rendering.lean import moved_px
+from tagmetry.twin.rendering.moments import Moment, moments
+from tagmetry.twin.rendering.paint import painted
+from tagmetry.twin.rendering.shot import Shot
 from tagmetry.twin.scenes.scene import Scene
 
 _TILE_PX = 256

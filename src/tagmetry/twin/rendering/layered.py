@@ -12,16 +12,16 @@ from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import FloatImage
 from tagmetry.twin.optics.defocus import spread_by_depth
 from tagmetry.twin.optics.spread import pixel_means
-from tagmetry.twin.render.box import Box
-from tagmetry.twin.render.canvas import Canvas, Patch
-from tagmetry.twin.render.fineness import LARGEST_DISC_PX, fine_of, gaussian_reach_px
-from tagmetry.twin.render.grid import Grid
-from tagmetry.twin.render.lean import moved_px
-from tagmetry.twin.render.moments import Moment
-from tagmetry.twin.render.paint import painted
-from tagmetry.twin.render.seen import SeenSheet
-from tagmetry.twin.render.shot import Shot
-from tagmetry.twin.render.view import View
+from tagmetry.twin.rendering.box import Box
+from tagmetry.twin.rendering.canvas import Canvas, Patch
+from tagmetry.twin.rendering.fineness import LARGEST_DISC_PX, fine_of, gaussian_reach_px
+from tagmetry.twin.rendering.grid import Grid
+from tagmetry.twin.rendering.lean import moved_px
+from tagmetry.twin.rendering.moments import Moment
+from tagmetry.twin.rendering.paint import painted
+from tagmetry.twin.rendering.seen import SeenSheet
+from tagmetry.twin.rendering.shot import Shot
+from tagmetry.twin.rendering.view import View
 from tagmetry.twin.scenes.scene import Scene
 
 _NEAREST_M = 1e-6

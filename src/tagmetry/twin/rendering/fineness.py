@@ -3,7 +3,7 @@
 import numpy as np
 
 from tagmetry.twin.optics.spread import Spread, fine_scale
-from tagmetry.twin.render.shot import Optics, Shot
+from tagmetry.twin.rendering.shot import Optics, Shot
 
 _PROFILE_ERROR = 3e-3  # of the contrast, at worst, on one pixel at an edge along the grid
 _EDGE_ERROR_PX = 2.5e-4  # of an edge's place on a sheet seen from the side

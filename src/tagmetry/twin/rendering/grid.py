@@ -8,9 +8,9 @@ import numpy as np
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.twin.optics.rays import Rays
-from tagmetry.twin.render.box import Box
-from tagmetry.twin.render.finer import finer
-from tagmetry.twin.render.hits import hits_m
+from tagmetry.twin.rendering.box import Box
+from tagmetry.twin.rendering.finer import finer
+from tagmetry.twin.rendering.hits import hits_m
 
 
 @dataclass(frozen=True)

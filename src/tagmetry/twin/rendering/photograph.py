@@ -11,8 +11,8 @@ import numpy as np
 
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.twin.optics.sensor import developed, through_jpeg
-from tagmetry.twin.render.expose import exposed
-from tagmetry.twin.render.shot import Shot
+from tagmetry.twin.rendering.expose import exposed
+from tagmetry.twin.rendering.shot import Shot
 from tagmetry.twin.scenes import Scene
 
 

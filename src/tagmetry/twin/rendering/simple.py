@@ -10,8 +10,8 @@ from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.markers import MountedMarker
 from tagmetry.twin.optics.sensor import Sensor
-from tagmetry.twin.render.photograph import photograph
-from tagmetry.twin.render.shot import Optics, Shot
+from tagmetry.twin.rendering.photograph import photograph
+from tagmetry.twin.rendering.shot import Optics, Shot
 from tagmetry.twin.scenes import Scene, Still, marker_thing
 
 _FULL_SCALE = 255.0

@@ -8,9 +8,9 @@ import numpy as np
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.twin.optics.rays import Rays
-from tagmetry.twin.render.box import Box
-from tagmetry.twin.render.order import painting_order
-from tagmetry.twin.render.view import View
+from tagmetry.twin.rendering.box import Box
+from tagmetry.twin.rendering.order import painting_order
+from tagmetry.twin.rendering.view import View
 from tagmetry.twin.scenes.scene import Scene
 from tagmetry.twin.scenes.sheet import Sheet, rectangle_m
 from tagmetry.twin.scenes.thing import Thing

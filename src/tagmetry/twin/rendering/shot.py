@@ -9,8 +9,8 @@ from tagmetry.errors import InputError
 from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.optics.thin_lens import ThinLens
 from tagmetry.twin.optics.vignetting import Vignetting
-from tagmetry.twin.render.crop import DigitalZoom
-from tagmetry.twin.render.view import View
+from tagmetry.twin.rendering.crop import DigitalZoom
+from tagmetry.twin.rendering.view import View
 from tagmetry.twin.scenes.path import Path
 
 
