@@ -96,7 +96,7 @@ class Detector:
 
     def _judged(self, grey: GreyPixels, *, bright: bool) -> tuple[list[Candidate], list[Rejection]]:
         """Read every square of the image in every layout."""
-        least_px = self.min_side_px or _default_min_side_px(grey)
+        least_px = self.min_side_px or default_min_side_px(grey)
         found = squares(grey, least_px, bright=bright)
         candidates: list[Candidate] = []
         rejections: list[Rejection] = []
@@ -141,7 +141,8 @@ def _picture(candidate: Candidate) -> Picture:
     return Picture(own.picture(candidate.match.id), own.layout.margin_cells)
 
 
-def _default_min_side_px(grey: GreyPixels) -> float:
+def default_min_side_px(grey: GreyPixels) -> float:
+    """Return the shortest side of markers that are looked for unless told otherwise."""
     small_px, large_px = np.sqrt([grey.size / 5e5, grey.size / 2e6])
     return 8.0 * max(1.0, min(2.0, float(small_px)), float(large_px))
 

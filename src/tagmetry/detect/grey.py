@@ -18,7 +18,7 @@ def grey_8bit(pixels: AnyPixels) -> GreyPixels:
     Raises:
         InputError: The array is no such image, or smaller than any marker.
     """
-    _check(pixels)
+    check_pixels(pixels)
     if pixels.dtype == np.uint16:
         pixels = _stretched(pixels)
     if pixels.ndim == 3 and pixels.shape[2] >= 3:
@@ -26,7 +26,8 @@ def grey_8bit(pixels: AnyPixels) -> GreyPixels:
     return np.ascontiguousarray(pixels.reshape(pixels.shape[:2]))
 
 
-def _check(pixels: AnyPixels) -> None:
+def check_pixels(pixels: AnyPixels) -> None:
+    """Raise InputError for an array that is no image, or smaller than any marker."""
     if not isinstance(pixels, np.ndarray):
         raise InputError(f"an image must be a NumPy array, got {type(pixels).__name__}")
     if pixels.ndim not in (2, 3) or (pixels.ndim == 3 and pixels.shape[2] not in (1, 3, 4)):
