@@ -92,3 +92,9 @@ def pixels() -> Array:
 def error_px(found: Camera, truth: Camera) -> Array:
     """Return where rays of the true camera fall too far, shape (n, 2)."""
     return np.asarray(found.project(truth.unproject(pixels())) - pixels())
+
+
+def same(found: Camera, expected: Camera, atol: float = 1e-9) -> None:
+    np.testing.assert_allclose(numbers(found), numbers(expected), rtol=1e-12, atol=atol)
+    assert found.size_px == expected.size_px
+    assert (found.zoom, found.focus) == (expected.zoom, expected.focus)
