@@ -95,3 +95,11 @@ def test_refuses_a_file_as_a_folder(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("old")
     with pytest.raises(InputError, match=r"cannot write .*: Not a directory"):
         write_atomically(tmp_path / "file" / "out", "")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
+def test_a_full_disk_is_named_with_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "out.png"
+    path.symlink_to("/dev/full")
+    with pytest.raises(InputError, match=r"cannot write .*out.png: No space.*; make room or"):
+        write_atomically(path, b"x")

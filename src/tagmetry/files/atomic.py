@@ -5,6 +5,7 @@ in a single step. Whatever interrupts the writing, an error, Ctrl-C or a full di
 stays as it was and nothing half-written is left.
 """
 
+import errno
 import os
 import secrets
 import shutil
@@ -23,7 +24,7 @@ def write_atomically(path: Path, content: bytes | str) -> None:
         InputError: The file cannot be written there.
     """
     encoded = content.encode() if isinstance(content, str) else content
-    with replace_file(path) as file:
+    with refusing(path), replace_file(path) as file:
         file.write(encoded)
 
 
@@ -65,4 +66,24 @@ def _opened(path: Path, opened: Path, mode: Literal["wb", "xb"]) -> BinaryIO:
             f"cannot write {path}: there is no folder {opened.parent}; create it first"
         ) from error
     except OSError as error:
-        raise InputError(f"cannot write {path}: {error.strerror}") from error
+        raise _refusal(path, error) from error
+
+
+@contextmanager
+def refusing(name: str | Path) -> Iterator[None]:
+    """Turn what the system says of a file that cannot be written into one clear line.
+
+    A reader that went away (a closed pipe) stays a `BrokenPipeError`: it is nobody's mistake.
+    """
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise _refusal(name, error) from error
+
+
+def _refusal(name: str | Path, error: OSError) -> InputError:
+    full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+    advice = "; make room or choose another place" if full else ""
+    return InputError(f"cannot write {name}: {error.strerror or error}{advice}")

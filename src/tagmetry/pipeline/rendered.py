@@ -16,10 +16,11 @@ import numpy as np
 from tagmetry.camera import Image
 from tagmetry.errors import InputError
 from tagmetry.files import save_camera, write_atomically
+from tagmetry.files.atomic import refusing
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.record.pictures import PictureWriter
 from tagmetry.record.video import VideoEncoder
-from tagmetry.record.whole import WholeFileWriter, Writer, refusing
+from tagmetry.record.whole import WholeFileWriter, Writer
 from tagmetry.twin.recipe import Picture, Recipe
 from tagmetry.twin.truth import truth_line
 

@@ -16,9 +16,9 @@ from typing import BinaryIO, Self
 from pydantic import ValidationError
 
 from tagmetry.errors import InputError
+from tagmetry.files.atomic import refusing
 from tagmetry.record.line import ImageLine, first_complaint, from_line, to_line
 from tagmetry.record.result import ImageResult
-from tagmetry.record.whole import refusing
 
 LONGEST_LINE_BYTES = 64 * 2**20  # some 20,000 markers; a longer one is no line of ours
 

@@ -7,8 +7,7 @@ from typing import Self
 
 from tagmetry.camera.image import Image
 from tagmetry.errors import InputError
-from tagmetry.files.atomic import write_atomically
-from tagmetry.record.whole import refusing
+from tagmetry.files.atomic import refusing, write_atomically
 
 SUFFIXES = (".png", ".jpg", ".jpeg")
 

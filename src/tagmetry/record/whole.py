@@ -1,13 +1,11 @@
 """Writers, and files that appear whole at the end of a run or not at all."""
 
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 from typing import BinaryIO, Generic, Protocol, Self, TypeVar
 
-from tagmetry.errors import InputError
-from tagmetry.files.atomic import replace_file
+from tagmetry.files.atomic import refusing, replace_file
 
 Item_contra = TypeVar("Item_contra", contravariant=True)
 
@@ -77,17 +75,3 @@ class WholeFileWriter(Generic[Item_contra]):
             return
         with refusing(self._path), self._stack:
             self._encoder.finish()
-
-
-@contextmanager
-def refusing(name: str | Path) -> Iterator[None]:
-    """Turn what the system says of a file that cannot be written into one clear line.
-
-    A reader that went away (a closed pipe) stays a `BrokenPipeError`: it is nobody's mistake.
-    """
-    try:
-        yield
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        raise InputError(f"cannot write {name}: {error.strerror or error}") from error
