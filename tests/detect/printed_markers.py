@@ -17,7 +17,7 @@ def printed(family: MarkerFamily, ids: list[int]) -> list[tuple[np.ndarray, dict
     """Return each page of a sheet as pixels, with its markers' corners (4, 2) by id."""
     sheets, left = [], list(ids)
     for page in sheet_pages(family, ids, SIZE_M):
-        here = [_corners_px(shape) for shape in _markers(page)]
+        here = [_corners_px(shape, family) for shape in _markers(page)]
         sheets.append((page_as_pixels(page, PIXELS_PER_M), dict(zip(left, here, strict=False))))
         left = left[len(here) :]
     assert not left
@@ -44,8 +44,9 @@ def _markers(page: Page) -> list[Cells]:
     return [s for s in page.shapes if isinstance(s, Cells) and s.filled.size > 1]
 
 
-def _corners_px(cells: Cells) -> Array:
-    box = cells.box
+def _corners_px(cells: Cells, family: MarkerFamily) -> Array:
+    margin = family.layout.margin_cells
+    box = cells.box.shrunk(cells.box.width_m * margin / len(cells.filled))
     x, y = [box.x_m, box.right_m], [box.y_m, box.bottom_m]
     corners_m = np.array([[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]])
     return corners_m * PIXELS_PER_M - 0.5

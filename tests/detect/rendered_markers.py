@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tagmetry import markers
 from tagmetry.camera import Camera
 from tagmetry.camera.lens import BrownLens
 from tagmetry.detect import Detection, Detector
@@ -37,7 +38,9 @@ def scene(
     marker_id: int = 7,
 ) -> Scene:
     """Render a marker turned at random about its normal, tilted, near the middle or `aside_px`."""
-    half_px = int(0.9 * side_px + 16 + aside_px)
+    layout = markers.family(family).layout
+    around = 1 + 2 * layout.margin_cells / layout.side_cells
+    half_px = int(0.9 * around * side_px + 16 + aside_px)
     camera = Camera(
         2 * half_px + 1,
         2 * half_px + 1,

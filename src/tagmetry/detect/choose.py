@@ -70,7 +70,7 @@ class Rules:
         """
         if reading is None:
             return "black and white cannot be told apart"
-        reason = self._not_a_marker(reading, is_bright)
+        reason = self._not_a_marker(reading, is_bright != families[0].layout.white_border)
         if reason is not None:
             return reason
         matches = [nearest(reading, one) for one in families]
@@ -85,13 +85,13 @@ class Rules:
         upright_px = np.roll(corners_px, -match.quarters, axis=0)
         return Candidate(upright_px, match, reading.contrast < 0, reading.sharp_outline)
 
-    def _not_a_marker(self, reading: Reading, is_bright: bool) -> str | None:
+    def _not_a_marker(self, reading: Reading, is_inverted: bool) -> str | None:
         """Return why a square is no marker at all, whatever its bits say; None when it may be."""
         if not has_border(reading):
-            return f"only {reading.border_share:.0%} of its border reads black"
+            return f"only {reading.border_share:.0%} of its border reads as printed"
         if not has_outline(reading):
             return "the image does not change across its sides; a wider border around it?"
-        if is_bright != (reading.contrast < 0):
+        if is_inverted != (reading.contrast < 0):
             return "the inside of a border, not a border"
         if reading.contrast < 0 and not self.inverted:
             return "white on black; look for inverted markers to accept it"

@@ -1,7 +1,8 @@
 """Which marker is it? Bits are read at cell centres against local black and white.
 
-Black is a plane fitted to the border's cells, white a plane fitted just outside the border; the
-threshold lies midway, so light that falls off across the marker does no harm. Each bit is sharpened
+Black is a plane fitted to the border's cells, white a plane fitted just outside the border; where a
+white border lies within a black ring, to the cells of these. The threshold lies midway, so light
+that falls off across the marker does no harm. Each bit is sharpened
 against the cells beside it: blur mixes neighbours, and single cells would drown in theirs first.
 """
 
@@ -13,7 +14,7 @@ import numpy as np
 from tagmetry.detect.closest import closest
 from tagmetry.detect.sample import cell_means, side_lengths, steps_across
 from tagmetry.geometry import Array, square_to_quad
-from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.geometry.arrays import BoolArray, GreyPixels
 from tagmetry.markers import Layout, MarkerFamily
 from tagmetry.markers.packed import Words, packed
 
@@ -34,9 +35,9 @@ class Reading:
         margins: Of each bit, (value - threshold) / half the contrast, shape (bits,); white is
             positive.
         words: Which of them are white, as bits.
-        border_share: Share of the border's cells that read black.
+        border_share: Share of the frame's cells (border, and ring around it) that read as printed.
         contrast: White minus black, grey values; negative where the marker is inverted.
-        border_margin: Mean clearness of the border's cells.
+        border_margin: Mean clearness of the frame's cells.
         sharp_outline: How clearly the image steps across the sides, 0 to 1; 1 when all of the
             contrast lies within a pixel of them.
         outline: The same within a good part of a cell.
@@ -83,18 +84,18 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | 
     """
     H = square_to_quad(corners_px)
     reach = _TAP_CELLS / layout.side_cells
-    black_at, white_at = border_centres(layout), _outside(layout)
-    if layout.white_border:
-        black_at, white_at = white_at, black_at
+    black_at, white_at = _places(layout)
     black, white = (cell_means(grey, H, at, reach) for at in (black_at, white_at))
-    at = np.concatenate([black_at, layout.bit_centres])
+    at = np.concatenate([_frame(layout), layout.bit_centres])
     dark, bright = _plane(black_at, black, at), _plane(white_at, white, at)
     contrast = (bright - dark).mean(axis=1)
     half = np.where(np.abs(contrast) < _LEAST_CONTRAST, np.nan, contrast / 2)
-    middle, count = (dark + bright) / 2, len(black_at)
-    border = (black - middle[:, :count]) / half[:, None]
-    share = (border < 0).mean(axis=1)
-    clear = -np.clip(border, -1, 1).mean(axis=1)
+    middle, count = (dark + bright) / 2, len(_frame(layout))
+    frame = np.concatenate([black, white], axis=1)[:, :count]
+    border = (frame - middle[:, :count]) / half[:, None]
+    as_printed = border * np.where(np.arange(count) < len(black_at), -1.0, 1.0)
+    share = (as_printed > 0).mean(axis=1)
+    clear = np.clip(as_printed, -1, 1).mean(axis=1)
     bits, near, far = np.zeros((len(H), layout.bit_count)), np.zeros(len(H)), np.zeros(len(H))
     bordered = np.flatnonzero(share >= 1 - _BORDER_ERRORS)  # no more is read of the others
     values = cell_means(grey, H[bordered], layout.bit_centres, reach)
@@ -116,8 +117,9 @@ def _outlines(
     """Return how clearly the image steps across sides, within a pixel and within a cell, (n,)."""
     cell_px = side_lengths(corners_px).mean(axis=1) / layout.side_cells
     reaches_px = (np.ones(len(corners_px)), _EDGE_CELLS * cell_px)
+    step_up = (-2 if layout.white_border else 2) * half[:, None]
     steps = [steps_across(grey, corners_px, reach_px) for reach_px in reaches_px]
-    near, far = (np.clip(step / (2 * half[:, None]), 0, 1).mean(axis=1) for step in steps)
+    near, far = (np.clip(step / step_up, 0, 1).mean(axis=1) for step in steps)
     return near, far
 
 
@@ -125,21 +127,32 @@ def nearest(reading: Reading, family: MarkerFamily) -> Match:
     """Return the marker of a family that differs in the fewest bits."""
     index, hamming = closest(reading.words, family.packed_codes)
     bits = len(reading.margins)
-    expected = family.turned_codes[index]
-    clear = np.minimum(np.maximum(reading.margins * expected, -1), 1).mean()
-    share = bits / (bits + len(border_centres(family.layout)))
+    quarters, marker_id = divmod(index, len(family))
+    expected = family.codes[marker_id][family.layout.rotations[quarters]]
+    right = np.where(expected, reading.margins, -reading.margins)
+    clear = np.minimum(np.maximum(right, -1), 1).mean()
+    share = bits / (bits + len(_frame(family.layout)))
     confidence = share * clear + (1 - share) * reading.border_margin
     return Match(
         family,
-        id=index % len(family),
-        quarters=index // len(family),
+        id=marker_id,
+        quarters=quarters,
         hamming=hamming,
         confidence=float(min(max(confidence, 0.0), 1.0)),
     )
 
 
+def free_colours(grey: GreyPixels, corners_px: Array, layout: Layout) -> BoolArray:
+    """Return which of a layout's free cells are more white than black on a marker, shape (n,)."""
+    H, reach = square_to_quad(corners_px)[None], _TAP_CELLS / layout.side_cells
+    at = (layout.free_cells + 0.5) / layout.side_cells
+    free, black, white = (cell_means(grey, H, where, reach) for where in (at, *_places(layout)))
+    to_white = white.mean() - black.mean()
+    return np.asarray(to_white * (free[0] - black.mean()) > to_white**2 / 2)
+
+
 def has_border(reading: Reading) -> bool:
-    """Say whether enough of the border's cells read black."""
+    """Say whether enough of the frame's cells read as they are printed."""
     return reading.border_share >= 1 - _BORDER_ERRORS
 
 
@@ -149,13 +162,18 @@ def has_outline(reading: Reading) -> bool:
 
 
 @cache
-def border_centres(layout: Layout) -> Array:
-    """Return the centres of the border's cells in units of the square's side, shape (n, 2)."""
-    side, border = layout.side_cells, layout.border_cells
-    inside = np.zeros((side, side), dtype=bool)
-    inside[border : side - border, border : side - border] = True
-    rows, columns = np.nonzero(~inside)
-    return (np.stack([columns, rows], axis=1) + 0.5) / side
+def _frame(layout: Layout) -> Array:
+    """Return the centres of cells that are alike on all markers, (n, 2); black ones first."""
+    cells = np.concatenate([layout.black_cells, layout.white_cells])
+    return np.asarray((cells + 0.5) / layout.side_cells)
+
+
+@cache
+def _places(layout: Layout) -> tuple[Array, Array]:
+    """Return where black and where white is looked for, (k, 2), units of the square's side."""
+    black = _frame(layout)[: len(layout.black_cells)]
+    white = _frame(layout)[len(layout.black_cells) :]
+    return black, white if layout.white_border else _outside(layout)
 
 
 @cache
@@ -170,8 +188,8 @@ def _outside(layout: Layout) -> Array:
 
 @cache
 def _sharpening(layout: Layout) -> Array:
-    """Return the matrix (bits, border + bits) that takes each bit farther from its neighbours."""
-    centres = np.concatenate([border_centres(layout), layout.bit_centres]) * layout.side_cells
+    """Return the matrix (bits, frame + bits) that takes each bit farther from its neighbours."""
+    centres = np.concatenate([_frame(layout), layout.bit_centres]) * layout.side_cells
     apart = np.abs(layout.bit_centres[:, None] * layout.side_cells - centres).sum(axis=2)
     beside = np.isclose(apart, 1.0)
     own = np.isclose(apart, 0.0)

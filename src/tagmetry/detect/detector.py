@@ -20,8 +20,8 @@ from tagmetry.detect.choose import (
 from tagmetry.detect.decode import read
 from tagmetry.detect.detection import Detection, Findings, Rejection
 from tagmetry.detect.exact import exact_corners
+from tagmetry.detect.expected import expected_picture
 from tagmetry.detect.grey import grey_8bit
-from tagmetry.detect.photometric import Picture
 from tagmetry.detect.segment import squares
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
@@ -70,13 +70,13 @@ class Detector:
                 makes of them.
         """
         grey = self._checked(image, camera)
-        candidates, _ = self._judged(grey, bright=self.rules.inverted)
+        candidates, _ = self._judged(grey, all_squares=self.rules.inverted)
         return _detections(grey, best_per_place(candidates), camera)
 
     def explain(self, image: AnyPixels, camera: Camera | None = None) -> Findings:
         """Return the markers, and the squares that were turned down, each with the reason."""
         grey = self._checked(image, camera)
-        candidates, rejections = self._judged(grey, bright=True)
+        candidates, rejections = self._judged(grey, all_squares=True)
         detections = _detections(grey, best_per_place(candidates), camera)
         return Findings(detections, distinct_rejections(rejections, detections))
 
@@ -94,18 +94,21 @@ class Detector:
             grouped.setdefault(one.layout, []).append(one)
         return grouped
 
-    def _judged(self, grey: GreyPixels, *, bright: bool) -> tuple[list[Candidate], list[Rejection]]:
-        """Read every square of the image in every layout."""
+    def _judged(
+        self, grey: GreyPixels, *, all_squares: bool
+    ) -> tuple[list[Candidate], list[Rejection]]:
+        """Read the image's squares in every layout: those of its border's colour, or all."""
         least_px = self.min_side_px or default_min_side_px(grey)
-        found = squares(grey, least_px, bright=bright)
+        white_borders = any(layout.white_border for layout in self._families_by_layout)
+        found = squares(grey, least_px, bright=all_squares or white_borders)
         candidates: list[Candidate] = []
         rejections: list[Rejection] = []
         for layout, families in self._families_by_layout.items():
-            readings = read(grey, found.corners_px, layout)
-            for corners, is_bright, reading in zip(
-                found.corners_px, found.is_bright, readings, strict=True
-            ):
-                verdict = self.rules.judge(corners, bool(is_bright), reading, families)
+            here = all_squares | (found.is_bright == layout.white_border)
+            corners_px, is_bright = found.corners_px[here], found.is_bright[here]
+            readings = read(grey, corners_px, layout)
+            for corners, bright, reading in zip(corners_px, is_bright, readings, strict=True):
+                verdict = self.rules.judge(corners, bool(bright), reading, families)
                 if isinstance(verdict, Candidate):
                     candidates.append(verdict)
                 else:
@@ -119,7 +122,8 @@ def _detections(
     if not candidates:
         return ()
     corners_px = np.stack([candidate.corners_px for candidate in candidates])
-    refined = exact_corners(grey, corners_px, [_picture(one) for one in candidates], camera)
+    pictures = [expected_picture(grey, one.corners_px, one.match) for one in candidates]
+    refined = exact_corners(grey, corners_px, pictures, camera)
     detections = [
         Detection(
             candidate.match.family.name,
@@ -134,11 +138,6 @@ def _detections(
         for i, candidate in enumerate(candidates)
     ]
     return with_duplicates_marked(detections)
-
-
-def _picture(candidate: Candidate) -> Picture:
-    own = candidate.match.family
-    return Picture(own.picture(candidate.match.id), own.layout.margin_cells)
 
 
 def default_min_side_px(grey: GreyPixels) -> float:

@@ -7,9 +7,11 @@ from math import comb
 import numpy as np
 
 from tagmetry.errors import InputError
-from tagmetry.geometry.arrays import Array, BoolArray
+from tagmetry.geometry.arrays import BoolArray
 from tagmetry.markers.layout import Layout
 from tagmetry.markers.packed import Words, packed
+
+_BLOCK = 256  # ids that are compared with all others at once
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,7 +19,7 @@ class MarkerFamily:
     """What a detector must know to name a marker.
 
     Attributes:
-        name: The field's name, for example `tag36h11`, `4x4_50`, `aruco_original`.
+        name: The field's name, for example `tag36h11`, `4x4_50`, `tagStandard41h12`.
         layout: Border and places of the bits.
         codes: One row of bits per id, True is white, shape (ids, bits).
         correction_bits: How many wrong bits the code can correct: (minimum distance - 1) // 2.
@@ -58,6 +60,8 @@ class MarkerFamily:
         """Return the family with another width of border; Kalibr prints AprilTags with 2 cells."""
         if border_cells == self.layout.border_cells:
             return self
+        if self.layout.white_border:
+            raise InputError(f"{self.name} has bits around its border, which has one width only")
         data_cells = self.layout.side_cells - 2 * self.layout.border_cells
         layout = Layout.square(data_cells, border_cells)
         return replace(self, name=f"{self.name}_border{border_cells}", layout=layout)
@@ -80,21 +84,25 @@ class MarkerFamily:
         within = sum(comb(bits, k) for k in range(wrong_bits + 1))
         return min(1.0, 4.0 * len(self) * within / 2.0**bits)
 
-    @cached_property
-    def turned_codes(self) -> Array:
-        """Codes as -1 and +1, shape (4 * ids, bits): upright, then turned by 1, 2, 3 quarters."""
+    @property
+    def turned_codes(self) -> BoolArray:
+        """All codes, True is white, shape (4 * ids, bits): upright, then turned by 1, 2, 3."""
         turned = self.codes[:, self.layout.rotations]
-        stacked = np.swapaxes(turned, 0, 1).reshape(-1, self.layout.bit_count)
-        return np.where(stacked, 1.0, -1.0)
+        return np.swapaxes(turned, 0, 1).reshape(-1, self.layout.bit_count)
 
     @cached_property
     def packed_codes(self) -> Words:
         """The turned codes as bits in words, shape (4 * ids, words)."""
-        return packed(self.turned_codes > 0)
+        return packed(self.turned_codes)
 
     def minimum_distance(self) -> int:
         """Return the least number of differing bits of two markers, or of one and itself turned."""
-        upright = self.turned_codes[: len(self)]
-        agreement = upright @ self.turned_codes.T
-        np.fill_diagonal(agreement, -np.inf)  # each upright marker against itself
-        return int((self.layout.bit_count - agreement.max()) / 2)
+        signs = np.where(self.turned_codes, np.float32(1), np.float32(-1))
+        most = -np.inf
+        for first in range(0, len(self), _BLOCK):
+            upright = signs[first : min(first + _BLOCK, len(self))]
+            agreement = upright @ signs.T
+            own = np.arange(len(upright))
+            agreement[own, first + own] = -np.inf  # each upright marker against itself
+            most = max(most, float(agreement.max()))
+        return int((self.layout.bit_count - most) / 2)

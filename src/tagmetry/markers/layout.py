@@ -1,7 +1,7 @@
 """Where the border and the bits of a marker lie, on a grid of cells.
 
 The bits are listed as cells, not as a matrix, because AprilTag 3's newer families have bits outside
-the border as well. Cell (0, 0) is the top left cell of the black square.
+the border as well. Cell (0, 0) is the top left cell of the square that is measured.
 """
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tagmetry.errors import InputError
-from tagmetry.geometry.arrays import Array, BoolArray
+from tagmetry.geometry.arrays import Array, BoolArray, IntArray
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,8 @@ class Layout:
         border_cells: How many cells wide the border inside that square is.
         bit_cells: (column, row) of every bit, in the order of the code; columns and rows below 0 or
             from `side_cells` on lie outside the square.
-        white_border: The border is white on a dark surround, as in some AprilTag 3 families.
+        white_border: The border is white, and around the square lies a ring of black cells, as in
+            AprilTag 3's newer families.
     """
 
     side_cells: int
@@ -58,7 +59,43 @@ class Layout:
     def margin_cells(self) -> int:
         """How far bits reach beyond the square, in cells."""
         cells = np.array(self.bit_cells)
-        return max(0, int(-cells.min()), int(cells.max() + 1 - self.side_cells))
+        ring = int(self.white_border)
+        return max(ring, int(-cells.min()), int(cells.max() + 1 - self.side_cells))
+
+    @cached_property
+    def black_cells(self) -> IntArray:
+        """(column, row) of the cells that are black on every marker, shape (n, 2)."""
+        return self._ring(-1, 0) if self.white_border else self._ring(0, self.border_cells)
+
+    @cached_property
+    def white_cells(self) -> IntArray:
+        """(column, row) of the cells that are white on every marker, shape (n, 2)."""
+        return self._ring(0, self.border_cells if self.white_border else 0)
+
+    @cached_property
+    def free_cells(self) -> IntArray:
+        """(column, row) of cells of the square where anything may be, shape (n, 2)."""
+        taken = np.concatenate([self.bit_cells, self.black_cells, self.white_cells]).tolist()
+        free = [cell for cell in self._ring(0, self.side_cells).tolist() if cell not in taken]
+        return np.array(free, dtype=np.intp).reshape(-1, 2)
+
+    @cached_property
+    def whole_rings(self) -> int:
+        """How many rings of cells around the square are printed on every marker, without gaps."""
+        taken = {tuple(cell) for cell in [*self.bit_cells, *self.black_cells.tolist()]}
+        rings = 0
+        while {tuple(cell) for cell in self._ring(-1 - rings, -rings).tolist()} <= taken:
+            rings += 1
+        return rings
+
+    def _ring(self, outer: int, inner: int) -> IntArray:
+        """Return the cells of a ring, row by row, that begins and ends so far inside the square."""
+        across = np.arange(outer, self.side_cells - outer)
+        rows, columns = np.meshgrid(across, across, indexing="ij")
+        depth = np.minimum(
+            np.minimum(rows, columns), self.side_cells - 1 - np.maximum(rows, columns)
+        )
+        return np.stack([columns[depth < inner], rows[depth < inner]], axis=1)
 
     @cached_property
     def bit_centres(self) -> Array:
@@ -84,12 +121,12 @@ class Layout:
         return row, self.side_cells - 1 - column
 
     def picture(self, code: BoolArray) -> BoolArray:
-        """Return the marker as cells, True is white, shape (m, m), m = side + 2 * margin."""
-        margin, side = self.margin_cells, self.side_cells
-        cells = np.full((side + 2 * margin,) * 2, not self.white_border)
-        cells[margin : margin + side, margin : margin + side] = self.white_border
-        inside = slice(margin + self.border_cells, margin + side - self.border_cells)
-        cells[inside, inside] = not self.white_border
-        columns, rows = np.array(self.bit_cells).T + margin
-        cells[rows, columns] = code
+        """Return the marker as cells, True is white, shape (m, m), m = side + 2 * margin.
+
+        Where neither a bit nor the border is, nothing is printed: paper, which is white.
+        """
+        cells = np.full((self.side_cells + 2 * self.margin_cells,) * 2, fill_value=True)
+        for places, colour in ((self.black_cells, False), (np.array(self.bit_cells), code)):
+            columns, rows = places.T + self.margin_cells
+            cells[rows, columns] = colour
         return cells

@@ -1,6 +1,6 @@
 """The marker families that everyone has, under the field's names.
 
-The codes are OpenCV's tables. Two things are ours:
+The codes are OpenCV's tables, and those of `apriltag3`. Two things are ours:
 
 * **Which way is up.** OpenCV's AprilTag pictures are turned by 180 degrees against those of the
   AprilTag project. An AprilTag's own top left is here that of the AprilTag project, whose pictures
@@ -16,6 +16,7 @@ import numpy as np
 
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels, BoolArray
+from tagmetry.markers.apriltag3 import APRILTAG3, apriltag3_family
 from tagmetry.markers.family import MarkerFamily
 from tagmetry.markers.layout import Layout
 
@@ -44,12 +45,16 @@ _CORRECTION_BITS = {
     "tag16h5": 2, "tag25h9": 4, "tag36h10": 4, "tag36h11": 5,
 }  # fmt: skip
 
+_APRILTAG3_NAMES = {
+    spelling.lower(): name for name in APRILTAG3 for spelling in (name, name.removeprefix("tag"))
+}
+
 _BORDER_SUFFIX = re.compile(r"^(?P<family>.+)_border(?P<cells>\d)$")
 
 
 def family_names() -> tuple[str, ...]:
     """Return the names of all predefined families."""
-    return tuple(_OPENCV_NAMES)
+    return (*_OPENCV_NAMES, *APRILTAG3)
 
 
 @lru_cache(maxsize=64)
@@ -57,8 +62,9 @@ def family(name: str) -> MarkerFamily:
     """Return a predefined family.
 
     Args:
-        name: One of `family_names()`; OpenCV's `DICT_…` names are understood too. The suffix
-            `_border2` asks for the border of two cells that Kalibr prints.
+        name: One of `family_names()` in any case; OpenCV's `DICT_…` names and AprilTag 3's without
+            `tag` are understood too. The suffix `_border2` asks for the border of two cells that
+            Kalibr prints.
 
     Raises:
         InputError: No family has this name; the text lists those there are.
@@ -66,10 +72,12 @@ def family(name: str) -> MarkerFamily:
     plain = _plain_name(name)
     if match := _BORDER_SUFFIX.match(plain):
         return family(match["family"]).with_border(int(match["cells"]))
+    if plain in _APRILTAG3_NAMES:
+        return apriltag3_family(_APRILTAG3_NAMES[plain])
     if plain not in _OPENCV_NAMES:
         raise InputError(
             f"unknown marker family {name!r}; there are {', '.join(family_names())}, "
-            "and each with a border of two cells, for example tag36h11_border2"
+            "and those of black squares with a border of two cells, for example tag36h11_border2"
         )
     return _load(plain)
 

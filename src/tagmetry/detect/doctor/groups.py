@@ -94,12 +94,14 @@ def every_family() -> tuple[MarkerFamily, ...]:
     """Return all predefined families with borders of one and two cells, without subsets."""
     names = [name for name in family_names() if not name.endswith(("_50", "_100", "_250"))]
     plain = [family(name) for name in names]
-    return (*plain, *(one.with_border(2) for one in plain))
+    return (*plain, *(one.with_border(2) for one in plain if not one.layout.white_border))
 
 
 def other_border(one: MarkerFamily) -> MarkerFamily | None:
     """Return the family with a border of two cells instead of one or the reverse, if there is."""
     plain, _, border = one.name.partition("_border")
+    if one.layout.white_border:
+        return None
     if not border and one.layout.border_cells == 1:
         return one.with_border(2)
     return family(plain) if plain in family_names() else None

@@ -71,8 +71,9 @@ def _moved(detection: Detection, by_px: float) -> Detection:
 
 
 def _telling(families: Sequence[MarkerFamily]) -> tuple[MarkerFamily, ...]:
-    """Return the families of which one marker among many guesses is no accident."""
-    return tuple(one for one in families if one.chance_of_random_match(0) < _LEAST_CHANCE)
+    """Return the families of black squares of which one among many guesses is no accident."""
+    black = [one for one in families if not one.layout.white_border]
+    return tuple(one for one in black if one.chance_of_random_match(0) < _LEAST_CHANCE)
 
 
 def _guesses(evidence: Evidence, families: Sequence[MarkerFamily]) -> Iterator[Array]:

@@ -20,7 +20,7 @@ import numpy as np
 from tagmetry.camera import Camera
 from tagmetry.detect.photometric.bows import believed
 from tagmetry.detect.photometric.fit import EXPONENTS
-from tagmetry.detect.photometric.ink import QUIET_CELLS, printed
+from tagmetry.detect.photometric.ink import printed
 from tagmetry.detect.photometric.marker import first_fit, fit_marker, frame_of
 from tagmetry.detect.photometric.model import BLACK, BOWS, EXPONENT
 from tagmetry.detect.photometric.straight import NO_LENS, lens_around
@@ -43,15 +43,23 @@ class Picture:
     Attributes:
         cells: True is white, shape (m, m).
         margin_cells: How many of them lie outside the square whose corners are measured, per side.
+        quiet_zone: White paper is around it. Where not, the outermost cells are there to say what
+            blurs into the others, and are not looked at themselves.
     """
 
     cells: BoolArray
     margin_cells: int = 0
+    quiet_zone: bool = True
 
     @property
     def side_cells(self) -> int:
         """Cells along a side of the square."""
         return len(self.cells) - 2 * self.margin_cells
+
+    @property
+    def ink(self) -> Array:
+        """The cells that are modelled, 1 is white; two rings of them are not the marker's own."""
+        return printed(self.cells) if self.quiet_zone else self.cells.astype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,13 +135,14 @@ def _fitted(
     bows: bool,
 ) -> tuple[Array, Array, Array, bool]:
     """Return one marker's fit, corners, covariance with bows, and whether it is any good."""
-    first = float(QUIET_CELLS + picture.margin_cells)
+    ink = picture.ink
+    first = 0.5 * (len(ink) - picture.side_cells)
     square = (first, first + picture.side_cells)
     lens = NO_LENS if camera is None else lens_around(camera, frame)
     start_places = (first_px - frame[:2]) / frame[2]
     start = first_fit(start_places, lens, square, frame[2])
     fit, places, joint, noise, moved_px = fit_marker(
-        grey, printed(picture.cells), start, start_places, frame, lens, square, bows
+        grey, ink, start, start_places, frame, lens, square, bows
     )
     contrast = 255 * abs(fit[BLACK + 1] - fit[BLACK])
     sound = moved_px < _SETTLED_PX and contrast > _LEAST_CONTRAST * noise

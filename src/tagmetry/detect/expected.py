@@ -1,0 +1,33 @@
+"""What is printed where a marker was found, as far as it can be known.
+
+Around a black square there is white paper. Markers with bits around their border need none, and may
+stand on any ground: of these, the last whole ring of cells is the farthest that is looked at.
+"""
+
+import numpy as np
+
+from tagmetry.detect.decode import Match, free_colours
+from tagmetry.detect.photometric import Picture
+from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import GreyPixels
+
+
+def expected_picture(grey: GreyPixels, corners_px: Array, match: Match) -> Picture:
+    """Return the picture of a marker.
+
+    Args:
+        grey: 8-bit image, which tells what stands in cells that are free.
+        corners_px: Clockwise from the marker's own top left, shape (4, 2).
+        match: Which marker it is.
+    """
+    layout = match.family.layout
+    cells = match.family.picture(match.id)
+    if not layout.white_border:
+        return Picture(cells, layout.margin_cells)
+    columns, rows = layout.free_cells.T + layout.margin_cells
+    cells[rows, columns] = free_colours(grey, corners_px, layout)
+    margin_cells = layout.whole_rings + 1
+    beyond = np.pad(cells, 1, constant_values=True)
+    cut = layout.margin_cells + 1 - margin_cells
+    kept = beyond[cut : len(beyond) - cut, cut : len(beyond) - cut]
+    return Picture(kept, margin_cells, quiet_zone=False)
