@@ -18,6 +18,7 @@ from tagmetry.cli.demo import demo
 from tagmetry.cli.detect import detect
 from tagmetry.cli.doctor import doctor
 from tagmetry.cli.info import info
+from tagmetry.cli.lab import app as lab_app
 from tagmetry.cli.print import app as print_app
 from tagmetry.cli.twin import app as twin_app
 from tagmetry.errors import InputError
@@ -33,6 +34,7 @@ app.command()(calibrate)
 app.add_typer(print_app, name="print")
 app.add_typer(camera_app, name="camera")
 app.add_typer(twin_app, name="twin")
+app.add_typer(lab_app, name="lab")
 app.command()(info)
 app.command()(doctor)
 app.command()(demo)

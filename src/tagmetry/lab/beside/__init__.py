@@ -1,0 +1,1 @@
+"""What experiments say: their results beside the published ones."""

@@ -1,0 +1,98 @@
+"""Seed 003, tables 3 to 6: is the paper's camera found again from 35 views of its board?
+
+The paper's camera is the true one. It is calibrated from the same pictures by tagmetry and by the
+steps of the paper's program, some times with other noise.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tagmetry.camera import Camera
+from tagmetry.geometry import Array
+from tagmetry.lab.beside.seed003_calibration import conclude
+from tagmetry.lab.experiment import Experiment
+from tagmetry.lab.rigs.webcam import CAMERA, PRINTED, board_poses, to_tutorial
+from tagmetry.lab.rigs.webcam_calibration import METHODS, Method, SolvedWebcam, solved_webcam
+from tagmetry.lab.rows import Quantity
+
+_PARAMETERS = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
+
+
+@dataclass(frozen=True)
+class Case:
+    """One calibration.
+
+    Attributes:
+        method: Whose.
+        repeat: Which of its repeats, each with other noise.
+    """
+
+    method: Method
+    repeat: int
+
+
+def cases(quick: bool) -> tuple[Case, ...]:
+    """Return both methods, each as often as it is repeated."""
+    repeats = range(1 if quick else 20)
+    return tuple(Case(method, repeat) for repeat in repeats for method in METHODS)
+
+
+def measure(case: Case, seed: int) -> Sequence[Quantity]:
+    """Return the camera's numbers, the errors, and the printed views' poses, with the truth."""
+    solved = solved_webcam(case.method, np.random.default_rng(seed))
+    named = (*_camera(solved.camera), *_errors(solved), *_poses(solved))
+    return [Quantity(case.method, case.repeat, *one) for one in named]
+
+
+def _camera(camera: Camera) -> Iterator[tuple[str, float, float, float]]:
+    covariance = camera.covariance
+    sd = np.sqrt(np.diag(covariance)) if covariance is not None else np.full(9, np.nan)
+    yield from zip(_PARAMETERS, _numbers(camera), _numbers(CAMERA), sd.tolist(), strict=True)
+
+
+def _numbers(camera: Camera) -> list[float]:
+    return [*camera.focal_px, *camera.center_px, *camera.lens.coefficients]
+
+
+def _errors(solved: SolvedWebcam) -> Iterator[tuple[str, float, float, float]]:
+    named = (
+        ("rms px", solved.rms_px),
+        ("tutorial error px", solved.tutorial_error_px),
+        ("projection rms px", _projection_rms_px(solved.camera)),
+        ("views", float(len(solved.views))),
+    )
+    for name, value in named:
+        yield name, value, np.nan, np.nan
+
+
+def _projection_rms_px(camera: Camera) -> float:
+    """Return how far projections are from the true ones, over all of the picture that has rays."""
+    u, v = np.meshgrid(np.linspace(0, 639, 33), np.linspace(0, 479, 25))
+    rays = CAMERA.unproject(np.stack([u, v], axis=-1))
+    rays = rays[np.isfinite(rays).all(axis=-1)]
+    error: Array = camera.project(rays) - CAMERA.project(rays)
+    return float(np.sqrt(np.nanmean((error**2).sum(axis=-1))))
+
+
+def _poses(solved: SolvedWebcam) -> Iterator[tuple[str, float, float, float]]:
+    true_poses = board_poses()
+    for view in set(PRINTED) & set(solved.views):
+        found, true = solved.poses[solved.views.index(view)], to_tutorial(true_poses[view])
+        for n in range(3):
+            turn, true_turn = float(found.rotation_rad[n]), float(true.rotation_rad[n])
+            yield f"view {view + 1} r{n + 1}", turn, true_turn, np.nan
+            place, true_place = found.translation_squares[n], true.translation_squares[n]
+            yield f"view {view + 1} t{n + 1}", float(place), float(true_place), np.nan
+
+
+EXPERIMENT = Experiment(
+    name="seed003-calibration",
+    title="Is the camera of seed 003 found again from 35 views of its board?",
+    source="seed 003, tables 3 to 6",
+    row=Quantity,
+    cases=cases,
+    measure=measure,
+    conclude=conclude,
+)

@@ -1,0 +1,33 @@
+"""The experiments by their names; a new one is a file in `experiments` and a line here."""
+
+from importlib import import_module
+from typing import Any
+
+from tagmetry.errors import InputError
+from tagmetry.files.plain import shortened
+from tagmetry.lab.experiment import Experiment
+
+_HOMES = {
+    "seed003-calibration": "seed003_calibration",
+    "seed003-pose": "seed003_pose",
+}
+
+
+def experiment_names() -> tuple[str, ...]:
+    """Return the names of all experiments."""
+    return tuple(_HOMES)
+
+
+def experiment(name: str) -> Experiment[Any, Any]:
+    """Return an experiment by its name.
+
+    Raises:
+        InputError: There is none of this name; the text lists those there are.
+    """
+    if name not in _HOMES:
+        raise InputError(
+            f"there is no experiment {shortened(name)!r}; there are {', '.join(_HOMES)}"
+        )
+    module = import_module(f"tagmetry.lab.experiments.{_HOMES[name]}")
+    found: Experiment[Any, Any] = module.EXPERIMENT
+    return found

@@ -1,0 +1,1 @@
+"""What experiments are set up with: cameras, boards, markers and places of the papers."""
