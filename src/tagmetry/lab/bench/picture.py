@@ -1,0 +1,236 @@
+"""The results drawn: time, recall and error over number and size, and images a second by robots."""
+
+from collections.abc import Callable, Sequence
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tagmetry.errors import InputError, MissingExtraError
+from tagmetry.files.atomic import write_atomically
+from tagmetry.lab.bench import seed
+from tagmetry.lab.bench.results import Results
+from tagmetry.lab.bench.row import Row
+from tagmetry.lab.bench.setup import FULL_HD, SETUPS, Setup
+from tagmetry.lab.engines import OURS
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
+
+_COLOURS = {
+    OURS: "#d55e00",
+    "tagmetry-track": "#e69f00",
+    "opencv-none": "#9bd0f0",
+    "opencv-subpix": "#56b4e9",
+    "opencv-contour": "#2a87bf",
+    "opencv-apriltag": "#0b4f79",
+    "apriltag": "#009e73",
+    "apriltag-2": "#66c2a5",
+    "locus": "#cc79a7",
+}
+_TRACKER = "tagmetry-track"
+_PANEL_INCH = (5.0, 3.8)
+_LEGEND_INCH = 0.5
+_DPI = 100
+
+Value = Callable[[Row], float | None]
+Abscissa = Callable[[Setup], float]
+
+
+def save_picture(results: Results, path: Path) -> None:
+    """Draw all that the results have, into one PNG.
+
+    Raises:
+        InputError: There is nothing to draw, or the file is no PNG or cannot be written.
+        MissingExtraError: matplotlib is not installed.
+    """
+    if path.suffix.lower() != ".png":
+        raise InputError(f"expected a picture's name that ends in .png, found {path}")
+    panels = available(results)
+    if not panels:
+        raise InputError("these cases make no curve; leave --case out, or name several (side-*)")
+    buffer = BytesIO()
+    figure_of(results, panels).savefig(buffer, format="png", dpi=_DPI)
+    write_atomically(path, buffer.getvalue())
+
+
+def figure_of(results: Results, panels: Sequence[str]) -> "Figure":
+    """Return a figure with some panels, up to three in a row."""
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise MissingExtraError("the picture", "report") from error
+    columns = min(3, len(panels))
+    rows = -(-len(panels) // columns)
+    width, height = _PANEL_INCH
+    figure = Figure(figsize=(columns * width, rows * height + _LEGEND_INCH), layout="constrained")
+    grid = figure.subplots(rows, columns, squeeze=False).ravel()
+    for axes, name in zip(grid, panels, strict=False):
+        PANELS[name](axes, results)
+    for axes in grid[len(panels) :]:
+        axes.axis("off")
+    _legend(figure)
+    return figure
+
+
+def _legend(figure: "Figure") -> None:
+    """Name every curve once, below all panels."""
+    named = {
+        label: handle
+        for axes in figure.axes
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+    figure.legend(
+        named.values(), named.keys(), loc="outside lower center", ncols=6, frameon=False, fontsize=9
+    )
+
+
+def available(results: Results) -> list[str]:
+    """Return the names of the panels that the results have points for."""
+    cases = {row.case for row in results.rows}
+    return [name for name, setups in _NEEDED.items() if len(cases & {s.name for s in setups}) > 1]
+
+
+def _time_by_number(axes: "Axes", results: Results) -> None:
+    _curves(axes, results, _COUNTS, lambda setup: setup.count, lambda row: row.p50_ms)
+    _dress(axes, "Time of a full HD image", "markers", "ms, one thread")
+    _both_logarithmic(axes)
+
+
+def _time_by_noise(axes: "Axes", results: Results) -> None:
+    _curves(axes, results, _NOISES, lambda setup: setup.noise, lambda row: row.p50_ms)
+    _dress(axes, "Time of 24 markers in noise", "noise, grey values", "ms, one thread")
+    axes.set_yscale("log")
+    _plain_numbers(axes.yaxis)
+
+
+def _error_by_side(axes: "Axes", results: Results) -> None:
+    _curves(axes, results, _SIDES, lambda setup: setup.side_px, lambda row: row.corner_rms_px)
+    _bound(axes, results, _SIDES)
+    _dress(axes, "Corners, linear camera", "side, px", "rms, px")
+    _both_logarithmic(axes)
+
+
+def _error_by_side_with_gamma(axes: "Axes", results: Results) -> None:
+    _curves(axes, results, _GAMMAS, lambda setup: setup.side_px, lambda row: row.corner_rms_px)
+    _bound(axes, results, _GAMMAS)
+    _dress(axes, "Corners, gamma 2.2", "side, px", "rms, px")
+    _both_logarithmic(axes)
+
+
+def _recall_by_side(axes: "Axes", results: Results) -> None:
+    _curves(axes, results, _SIDES, lambda setup: setup.side_px, lambda row: row.recall)
+    _dress(axes, "Markers found", "side, px", "share")
+    axes.set_ylim(-0.05, 1.05)
+    _x_logarithmic(axes)
+
+
+def _images_by_robots(axes: "Axes", results: Results) -> None:
+    def images_per_s(row: Row) -> float | None:
+        return 1000 / row.p50_ms if row.p50_ms else None
+
+    for engine, setups in ((OURS, _COUNTS), (_TRACKER, _FILMS)):
+        _curve(axes, results, engine, setups, lambda setup: setup.count, images_per_s)
+    axes.plot(seed.ROBOTS, seed.IMAGES_PER_S, "ks--", label="seed 001, figure 10")
+    axes.axhline(seed.CAMERA_HZ, color="0.6", lw=0.8)
+    axes.annotate("its camera's limit", (1, seed.CAMERA_HZ), fontsize=7, va="bottom")
+    axes.axhline(seed.LEAST_IMAGES_PER_S, color="0.6", lw=0.8, ls=":")
+    axes.annotate("its slowest", (1, seed.LEAST_IMAGES_PER_S), fontsize=7, va="bottom")
+    _dress(axes, "Full HD images in a second", "robots", "1/s, one thread")
+    _both_logarithmic(axes)
+
+
+def _curves(
+    axes: "Axes", results: Results, setups: Sequence[Setup], abscissa: Abscissa, value: Value
+) -> None:
+    for engine in dict.fromkeys(row.engine for row in results.rows):
+        _curve(axes, results, engine, setups, abscissa, value)
+
+
+def _curve(
+    axes: "Axes",
+    results: Results,
+    engine: str,
+    setups: Sequence[Setup],
+    abscissa: Abscissa,
+    value: Value,
+) -> None:
+    """Draw one engine; a former name that is unknown now is grey."""
+    points = [
+        (abscissa(setup), y)
+        for setup in setups
+        if (row := results.of(setup.name, engine, 1)) is not None and (y := value(row)) is not None
+    ]
+    if points:
+        width = 2.2 if engine.startswith(OURS) else 1.1
+        colour = _COLOURS.get(engine, "0.5")
+        axes.plot(*zip(*points, strict=True), "o-", ms=4, lw=width, color=colour, label=engine)
+
+
+def _bound(axes: "Axes", results: Results, setups: Sequence[Setup]) -> None:
+    """Draw the Cramer-Rao bound."""
+    points = {
+        setup.side_px: row.bound_px
+        for row in results.rows
+        for setup in setups
+        if row.case == setup.name and row.bound_px is not None
+    }
+    axes.plot(*zip(*sorted(points.items()), strict=True), "k--", lw=1, label="Cramér-Rao bound")
+
+
+def _dress(axes: "Axes", title: str, abscissa: str, ordinate: str) -> None:
+    axes.set_title(title, fontsize=10)
+    axes.set_xlabel(abscissa)
+    axes.set_ylabel(ordinate)
+    axes.grid(visible=True, which="both", alpha=0.2)
+
+
+def _both_logarithmic(axes: "Axes") -> None:
+    axes.set_yscale("log")
+    _plain_numbers(axes.yaxis)
+    _x_logarithmic(axes)
+
+
+def _x_logarithmic(axes: "Axes") -> None:
+    axes.set_xscale("log")
+    _plain_numbers(axes.xaxis)
+
+
+def _plain_numbers(axis: "Axis") -> None:
+    """Write a logarithmic axis' numbers as people do: 0.5, 1, 2, 50."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FormatStrFormatter("%g"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _like(names: Sequence[str], key: Abscissa) -> list[Setup]:
+    """Return setups by the beginnings of their names, in the order of the abscissa."""
+    found = [s for s in SETUPS if s.name.startswith(tuple(names)) and s.size_px == FULL_HD]
+    return sorted(found, key=key)
+
+
+_COUNTS = _like(["count-"], lambda setup: setup.count)
+_SIDES = _like(["side-", "count-24"], lambda setup: setup.side_px)
+_GAMMAS = _like(["gamma-"], lambda setup: setup.side_px)
+_NOISES = _like(["noise-", "count-24"], lambda setup: setup.noise)
+_FILMS = _like(["film-"], lambda setup: setup.count)
+
+PANELS: dict[str, Callable[["Axes", Results], None]] = {
+    "time": _time_by_number,
+    "noise": _time_by_noise,
+    "corners": _error_by_side,
+    "gamma": _error_by_side_with_gamma,
+    "recall": _recall_by_side,
+    "robots": _images_by_robots,
+}
+_NEEDED = {
+    "time": _COUNTS,
+    "noise": _NOISES,
+    "corners": _SIDES,
+    "gamma": _GAMMAS,
+    "recall": _SIDES,
+    "robots": _COUNTS,
+}

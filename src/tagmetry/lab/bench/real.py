@@ -1,0 +1,91 @@
+"""Cases of real pictures: sets of the data folder, and the user's own."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from tagmetry.detect.grey import grey_8bit
+from tagmetry.errors import InputError
+from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.lab.bench.case import Case, Truth
+from tagmetry.sources import read_picture
+from tagmetry.sources.paths import expand
+
+MOST_PICTURES = 24  # of a set or a pattern, evenly taken, so that a run ends
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """Pictures on disk as a case.
+
+    Attributes:
+        name: What the case is called.
+        family: What to look for.
+        paths: The pictures.
+        shows_none: It is known that no picture shows a marker.
+        all_threads: It is measured with all threads as well.
+    """
+
+    name: str
+    family: str
+    paths: tuple[Path, ...]
+    shows_none: bool = False
+    all_threads: bool = False
+
+    def case(self) -> Case:
+        """Return the case with its images."""
+        images = tuple(_grey(path) for path in self.paths)
+        nothing = Truth(np.empty(0, np.int64), np.empty((0, 4, 2)))
+        truths = (nothing,) * len(images) if self.shows_none else None
+        return Case(self.name, self.family, images, truths)
+
+
+def real_sets(folder: Path) -> list[Pictures]:
+    """Return the sets of the data folder that are there.
+
+    Raises:
+        InputError: None is.
+    """
+    sets = [
+        _set(folder, "tiny_tags", "tag36h11"),
+        _set(folder, "yaw_sweep", "tag36h11"),
+        _set(folder, "house_tour/mapping_feb_2014", "tag36h11"),
+        _set(folder, "planar_map", "aruco_original"),
+        _set(folder, "grid_board", "6x6_250"),
+        _set(folder, "marker_free", "tag36h11", shows_none=True),
+    ]
+    there = [one for one in sets if one.paths]
+    if not there:
+        names = ", ".join(one.name.removeprefix("real-") for one in sets)
+        raise InputError(f"{folder} has none of the sets {names}; TAGMETRY_DATA names the folder")
+    return there
+
+
+def own_pictures(patterns: Sequence[str], family: str) -> Pictures:
+    """Return pictures of one's own as a case.
+
+    Raises:
+        InputError: There are none.
+    """
+    paths = [path for pattern in patterns for path in expand(pattern)]
+    some = _some(paths)
+    name = "own" if len(some) == len(paths) else f"own-{len(some)}-of-{len(paths)}"
+    return Pictures(name, family, some)
+
+
+def _set(folder: Path, name: str, family: str, *, shows_none: bool = False) -> Pictures:
+    found = sorted(p for p in (folder / name).glob("*") if p.suffix.lower() in {".jpg", ".png"})
+    return Pictures(f"real-{name.partition('/')[0]}", family, _some(found), shows_none)
+
+
+def _some(paths: Sequence[Path]) -> tuple[Path, ...]:
+    if len(paths) <= MOST_PICTURES:
+        return tuple(paths)
+    numbers = np.linspace(0, len(paths) - 1, MOST_PICTURES).round().astype(int)
+    return tuple(paths[number] for number in numbers)
+
+
+def _grey(path: Path) -> GreyPixels:
+    return grey_8bit(read_picture(path, grey=True))

@@ -1,0 +1,61 @@
+"""The engines of a run, each in its own process, alive as far as possible."""
+
+from collections.abc import Sequence
+from types import TracebackType
+from typing import Self
+
+from tagmetry.lab.bench.case import Case
+from tagmetry.lab.engines import Child, EngineKind
+
+
+class Team:
+    """Engines that may use so many threads; those that died come back for the next case.
+
+    Args:
+        kinds: The engines.
+        threads: For each of them.
+        timeout_s: How long one image may take.
+    """
+
+    def __init__(self, kinds: Sequence[EngineKind], threads: int, timeout_s: float) -> None:
+        self.threads = threads
+        self._kinds, self._timeout_s = tuple(kinds), timeout_s
+        self._children: dict[tuple[str, str], Child] = {}
+
+    def start(self, family: str) -> None:
+        """Start all engines for a family, so that they are ready when the images are."""
+        for kind in self._kinds:
+            if family in kind.families:
+                self._alive(kind, family)
+
+    def members(self, case: Case) -> list[Child]:
+        """Return the engines that know the family; trackers only where something moves."""
+        return [
+            self._alive(kind, case.family)
+            for kind in self._kinds
+            if case.family in kind.families and (case.moves or not kind.tracks)
+        ]
+
+    def close(self) -> None:
+        """End all processes."""
+        while self._children:
+            self._children.popitem()[1].close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _alive(self, kind: EngineKind, family: str) -> Child:
+        key = (kind.name, family)
+        if key in self._children and self._children[key].is_dead:
+            self._children.pop(key).close()
+        if key not in self._children:
+            self._children[key] = Child(kind, family, self.threads, self._timeout_s)
+        return self._children[key]

@@ -1,0 +1,20 @@
+"""Detectors to compare: ours and the peers, behind one interface, each in its own process."""
+
+from tagmetry.lab.engines.child import Child, Failure
+from tagmetry.lab.engines.engine import Engine, EngineKind, Found
+from tagmetry.lab.engines.kinds import OURS, chosen, engine_names, installed, missing
+from tagmetry.lab.engines.worker import Answer
+
+__all__ = [
+    "OURS",
+    "Answer",
+    "Child",
+    "Engine",
+    "EngineKind",
+    "Failure",
+    "Found",
+    "chosen",
+    "engine_names",
+    "installed",
+    "missing",
+]
