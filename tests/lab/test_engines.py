@@ -11,7 +11,15 @@ from tagmetry.lab.bench.setup import Setup
 from tagmetry.lab.engines import EngineKind, chosen, engine_names, installed
 from tagmetry.lab.engines import kinds as kinds_module
 
-FAMILIES = ("tag36h11", "tag25h9", "4x4_50", "6x6_250", "aruco_mip_36h12")
+FAMILIES = (
+    "tag36h11",
+    "tagStandard41h12",
+    "tagCircle21h7",
+    "tag25h9",
+    "4x4_50",
+    "6x6_250",
+    "aruco_mip_36h12",
+)
 STILL = [kind for kind in installed() if not kind.tracks]
 LARGEST_RMS_PX = {"opencv-none": 0.8, "opencv-contour": 0.8, "opencv-subpix": 0.25}
 SCENES: dict[str, Case] = {}

@@ -1,5 +1,6 @@
 """`tagmetry bench`: all detectors on the same images, in one run."""
 
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -42,22 +43,21 @@ def bench(  # noqa: PLR0913 (each argument is an option)
     ] = None,
 ) -> None:
     """Measure time, recall and accuracy of our detector and its peers on the same images."""
-    from tagmetry.cli.bench_report import check_picture, tell
+    from tagmetry.cli.bench_report import check_outputs, tell
     from tagmetry.cli.progress import counted
     from tagmetry.lab.bench import PACES, load_results, save_results, steps
     from tagmetry.lab.bench import bench as measured
 
-    check_picture(picture)
+    check_outputs(json, picture)
     former = load_results(compare) if compare is not None else None
     extent = _extent(quick=quick, full=full)
     works = _works(extent, case or [], images or [], family, real=real)
     to_do = steps(works, _threads(threads))
     results: Results | None = None
-    for results in counted(
-        measured(to_do, _kinds(engine), family, PACES[extent]), len(to_do), "bench"
-    ):
-        if json is not None:
-            save_results(results, json)
+    with closing(measured(to_do, _kinds(engine), family, PACES[extent])) as runs:
+        for results in counted(runs, len(to_do), "bench"):
+            if json is not None:
+                save_results(results, json)
     if results is not None:
         tell(results, former, picture)
 

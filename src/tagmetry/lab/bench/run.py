@@ -1,6 +1,6 @@
 """The bench: all engines on all cases, case by case."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import replace
 
 from tagmetry.lab.bench.costs import costs
@@ -17,7 +17,7 @@ from tagmetry.lab.engines import EngineKind
 
 def bench(
     to_do: Sequence[Step], kinds: Sequence[EngineKind], family: str, pace: Pace
-) -> Iterator[Results]:
+) -> Generator[Results]:
     """Measure engines; give the results so far after every case.
 
     Args:

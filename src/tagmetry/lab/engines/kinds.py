@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from importlib.util import find_spec
 
-
 from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.lab.engines.engine import EngineKind
 from tagmetry.markers import family_names
+from tagmetry.markers.apriltag3 import APRILTAG3
 
 OURS = "tagmetry"
 _HERE = "tagmetry.lab.engines"
@@ -14,7 +14,7 @@ _ARUCO = frozenset(
     {f"{n}x{n}_{count}" for n in (4, 5, 6, 7) for count in (50, 100, 250, 1000)}
     | {"aruco_original", "aruco_mip_36h12", "tag16h5", "tag25h9", "tag36h10", "tag36h11"}
 )
-_APRILTAG = frozenset({"tag16h5", "tag25h9", "tag36h11"})
+_APRILTAG = frozenset({"tag16h5", "tag25h9", "tag36h11", *APRILTAG3})
 _LOCUS = frozenset({"tag16h5", "tag36h11", "4x4_50", "4x4_100", "6x6_250", "aruco_mip_36h12"})
 
 KINDS = (
