@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from apriltag_library import library_family
 
+from apriltag_library import library_family
 from tagmetry.errors import InputError
 from tagmetry.markers import family
 

@@ -39,6 +39,10 @@ def detect(  # noqa: PLR0913 (each argument is an option)
         Path | None,
         typer.Option(help="Pictures or a video with what was found: .png, .jpg or .mp4."),
     ] = None,
+    stages: Annotated[
+        Path | None,
+        typer.Option(help="Folder for pictures of every stage of the first image, and index.html."),
+    ] = None,
     json: Json = False,
     explain: Annotated[
         bool, typer.Option("--explain", help="Say why squares were turned down.")
@@ -72,11 +76,13 @@ def detect(  # noqa: PLR0913 (each argument is an option)
         json, out = True, None
     if _lacks_poses(task, out, sources):
         typer.echo("tagmetry: no poses: they need both --size and --camera", err=True)
+    sights = _FirstStages(stages, task)
     with ExitStack() as stack:
         takers = _Takers(stack, _results_writer(out, marker), overlay, cube, task)
         images = stack.enter_context(closing(_images(sources, task)))
         for image in islice(images, limit):
             with held_back():
+                sights.take(image)
                 result, rejections = _measured(task, image, explain)
                 takers.take(image, result, rejections)
                 if json:
@@ -123,6 +129,23 @@ class _Takers:
                 rejections=rejections,
             )
             self._overlays.write(replace(image, pixels=drawn))
+
+
+class _FirstStages:
+    """The folder that pictures of the first image's stages go to."""
+
+    def __init__(self, folder: Path | None, task: "Measurement") -> None:
+        self._folder = folder
+        self._task = task
+
+    def take(self, image: "Image") -> None:
+        """Write the stages of the first image that comes."""
+        if self._folder is None:
+            return
+        from tagmetry.record.stages import write_stages
+
+        write_stages(self._task.look_through(image), self._folder)
+        self._folder = None
 
 
 def _measured(

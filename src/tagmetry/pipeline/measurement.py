@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from tagmetry.camera import Camera, Image
 from tagmetry.detect import Detection, Detector, Findings
+from tagmetry.detect.stages import Stages, look_through
 from tagmetry.errors import InputError
 from tagmetry.files.text import named_errors
 from tagmetry.pose import MarkerPose, estimate_poses
@@ -46,6 +47,11 @@ class Measurement:
         """Return the markers of an image, and the squares that were turned down."""
         with named_errors(image.source or "image"):
             return self.detector.explain(image.pixels, self._camera_of(image))
+
+    def look_through(self, image: Image) -> Stages:
+        """Return what the detector sees of an image at each of its steps."""
+        with named_errors(image.source or "image"):
+            return look_through(image.pixels, self.detector, self._camera_of(image))
 
     def result(self, image: Image, detections: Sequence[Detection]) -> ImageResult:
         """Return detections of an image with their poses."""

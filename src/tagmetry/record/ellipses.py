@@ -18,7 +18,7 @@ def draw_ellipses(canvas: GreyPixels, detection: Detection, magnification: float
         here = slice(2 * corner, 2 * corner + 2)
         covariance_px2 = detection.corners_cov_px2[here, here]
         if np.isfinite(covariance_px2).all():
-            outline = detection.corners_px[corner] + magnification * _ellipse(covariance_px2)
+            outline = detection.corners_px[corner] + magnification * ellipse(covariance_px2)
             draw_path(canvas, outline, Pen(PURPLE), closed=True)
 
 
@@ -29,7 +29,7 @@ def draw_ellipse_caption(canvas: GreyPixels, magnification: float) -> None:
     draw_text(canvas, text, lower_left, caption_px(canvas), PURPLE)
 
 
-def _ellipse(covariance_px2: Array) -> Array:
-    """Return points one standard deviation from the centre, shape (n, 2)."""
+def ellipse(covariance_px2: Array) -> Array:
+    """Return points one standard deviation of a covariance (2, 2) from the centre, (n, 2)."""
     variances, directions = np.linalg.eigh(covariance_px2)
     return np.asarray((CIRCLE * np.sqrt(np.clip(variances, 0.0, None))) @ directions.T)
