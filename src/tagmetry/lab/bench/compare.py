@@ -8,7 +8,7 @@ import numpy as np
 from tagmetry.errors import InputError
 from tagmetry.lab.bench.results import Results
 from tagmetry.lab.bench.row import Row
-from tagmetry.lab.engines import OURS
+from tagmetry.lab.engines import OURS, TRACKER
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def _notes(now: Results, before: Results, changes: Sequence[Change]) -> list[str
         former = before.machine.packages.get(name, "none")
         if former != found:
             notes.append(f"{name} {former} before, {found} now")
-    peers = [c.time for c in changes if c.now.engine.partition("-")[0] != OURS and c.time]
+    peers = [c.time for c in changes if c.time and c.now.engine not in (OURS, TRACKER)]
     if peers:
         notes.append(
             f"the peers took {np.median(peers):.2f} of their former time (median): "

@@ -11,7 +11,7 @@ from tagmetry.lab.bench import seed
 from tagmetry.lab.bench.results import Results
 from tagmetry.lab.bench.row import Row
 from tagmetry.lab.bench.setup import FULL_HD, SETUPS, Setup
-from tagmetry.lab.engines import OURS
+from tagmetry.lab.engines import OURS, TRACKER
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _COLOURS = {
     OURS: "#d55e00",
-    "tagmetry-track": "#e69f00",
+    TRACKER: "#e69f00",
     "opencv-none": "#9bd0f0",
     "opencv-subpix": "#56b4e9",
     "opencv-contour": "#2a87bf",
@@ -29,7 +29,6 @@ _COLOURS = {
     "apriltag-2": "#66c2a5",
     "locus": "#cc79a7",
 }
-_TRACKER = "tagmetry-track"
 _PANEL_INCH = (5.0, 3.8)
 _LEGEND_INCH = 0.5
 _DPI = 100
@@ -130,7 +129,7 @@ def _images_by_robots(axes: "Axes", results: Results) -> None:
     def images_per_s(row: Row) -> float | None:
         return 1000 / row.p50_ms if row.p50_ms else None
 
-    for engine, setups in ((OURS, _COUNTS), (_TRACKER, _FILMS)):
+    for engine, setups in ((OURS, _COUNTS), (TRACKER, _FILMS)):
         _curve(axes, results, engine, setups, lambda setup: setup.count, images_per_s)
     axes.plot(seed.ROBOTS, seed.IMAGES_PER_S, "ks--", label="seed 001, figure 10")
     axes.axhline(seed.CAMERA_HZ, color="0.6", lw=0.8)
@@ -215,7 +214,11 @@ def _like(names: Sequence[str], key: Abscissa) -> list[Setup]:
 _COUNTS = _like(["count-"], lambda setup: setup.count)
 _SIDES = _like(["side-", "count-24"], lambda setup: setup.side_px)
 _GAMMAS = _like(["gamma-"], lambda setup: setup.side_px)
-_NOISES = _like(["noise-", "count-24"], lambda setup: setup.noise)
+_NOISES = [
+    setup
+    for setup in _like(["noise-", "count-24"], lambda setup: setup.noise)
+    if setup.side_px == SETUPS[0].side_px
+]
 _FILMS = _like(["film-"], lambda setup: setup.count)
 
 PANELS: dict[str, Callable[["Axes", Results], None]] = {

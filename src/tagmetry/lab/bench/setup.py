@@ -64,6 +64,8 @@ SETUPS = (
     Setup("count-360", count=360, side_px=36.0, extent="default", all_threads=True),
     Setup("noise-0", noise=0.0),
     Setup("noise-16", noise=16.0, extent="default"),
+    Setup("noise-8-30", side_px=30.0, noise=8.0),
+    Setup("noise-8-100", side_px=100.0, noise=8.0),
     Setup("gamma-30", side_px=30.0, exponent=2.2, extent="default"),
     Setup("gamma-100", side_px=100.0, exponent=2.2),
     Setup("blur-0.3", blur_px=0.3),

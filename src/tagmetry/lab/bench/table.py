@@ -6,6 +6,7 @@ from rich.table import Table
 
 from tagmetry.lab.bench.compare import Comparison
 from tagmetry.lab.bench.costs import Cost
+from tagmetry.lab.bench.goals import Goal, goals
 from tagmetry.lab.bench.results import Results
 from tagmetry.lab.bench.row import Row
 
@@ -21,6 +22,8 @@ def tables(results: Results) -> Iterator[Table]:
         yield _rows_table([row for row in results.rows if row.threads == threads], threads)
     if results.costs:
         yield _costs_table(results.costs)
+    if wanted := goals(results):
+        yield _goals_table(wanted)
 
 
 def change_table(comparison: Comparison) -> Table:
@@ -119,6 +122,18 @@ def _costs_table(all_costs: Sequence[Cost]) -> Table:
             number(cost.marker_ms),
             number(cost.misfit_percent, 2),
         )
+    return table
+
+
+def _goals_table(all_goals: Sequence[Goal]) -> Table:
+    table = Table(title="what is to hold", title_justify="left", box=None)
+    table.add_column("goal")
+    for name in ("measured", "wanted", ""):
+        table.add_column(name, justify="right")
+    for goal in all_goals:
+        limit = f"{'>=' if goal.at_least else '<='} {number(goal.wanted)}"
+        verdict = "holds" if goal.holds else "falls short"
+        table.add_row(goal.name, number(goal.measured), limit, verdict)
     return table
 
 

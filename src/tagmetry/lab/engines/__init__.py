@@ -2,11 +2,12 @@
 
 from tagmetry.lab.engines.child import Child, Failure
 from tagmetry.lab.engines.engine import Engine, EngineKind, Found
-from tagmetry.lab.engines.kinds import OURS, chosen, engine_names, installed, missing
+from tagmetry.lab.engines.kinds import OURS, TRACKER, chosen, engine_names, installed, missing
 from tagmetry.lab.engines.worker import Answer
 
 __all__ = [
     "OURS",
+    "TRACKER",
     "Answer",
     "Child",
     "Engine",

@@ -9,6 +9,7 @@ from tagmetry.markers import family_names
 from tagmetry.markers.apriltag3 import APRILTAG3
 
 OURS = "tagmetry"
+TRACKER = "tagmetry-track"
 _HERE = "tagmetry.lab.engines"
 _ARUCO = frozenset(
     {f"{n}x{n}_{count}" for n in (4, 5, 6, 7) for count in (50, 100, 250, 1000)}
@@ -20,7 +21,7 @@ _LOCUS = frozenset({"tag16h5", "tag36h11", "4x4_50", "4x4_100", "6x6_250", "aruc
 KINDS = (
     EngineKind(OURS, f"{_HERE}.own:WholeImage", frozenset(family_names()), "tagmetry"),
     EngineKind(
-        "tagmetry-track",
+        TRACKER,
         f"{_HERE}.tracker:Tracking",
         frozenset(family_names()),
         "tagmetry",
