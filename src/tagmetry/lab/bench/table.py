@@ -1,5 +1,6 @@
 """Results as tables for a terminal of 100 columns."""
 
+import math
 from collections.abc import Iterator, Sequence
 
 from rich.table import Table
@@ -14,6 +15,7 @@ _COLUMNS = (
     "p50 ms", "p99 ms", "ratio", "found", "false", "rms px", "bound", "pos %", "deg", "flip", "MiB",
 )  # fmt: skip
 NONE = "-"
+_MOST_DECIMALS = 4
 
 
 def tables(results: Results) -> Iterator[Table]:
@@ -28,10 +30,10 @@ def tables(results: Results) -> Iterator[Table]:
 
 def change_table(comparison: Comparison) -> Table:
     """Return the times and errors of two runs."""
-    table = Table(title="compared with the former run", title_justify="left")
-    for name in ("case", "engine", "threads"):
-        table.add_column(name)
-    for name in ("before ms", "now ms", "time", "found before", "found now", "rms"):
+    table = Table(title="compared with the former run", title_justify="left", box=None)
+    for name in ("case", "engine"):
+        table.add_column(name, no_wrap=True)
+    for name in ("threads", "ms before", "now", "time", "found before", "now", "rms"):
         table.add_column(name, justify="right")
     for change in comparison.changes:
         before, now = change.before, change.now
@@ -53,10 +55,10 @@ def number(value: float | None, digits: int = 3) -> str:
     """Return a number with so many digits that count."""
     if value is None:
         return NONE
-    decimals = 0
-    while decimals < 4 and abs(value) * 10**decimals < 10 ** (digits - 1):
-        decimals += 1
-    return f"{value:.{decimals}f}"
+    if value == 0:
+        return "0"
+    decimals = digits - 1 - math.floor(math.log10(abs(value)))
+    return f"{value:.{min(max(decimals, 0), _MOST_DECIMALS)}f}"
 
 
 def found(row: Row) -> str:
