@@ -98,7 +98,7 @@ class Detector:
         self, grey: GreyPixels, *, all_squares: bool
     ) -> tuple[list[Candidate], list[Rejection]]:
         """Read the image's squares in every layout: those of its border's colour, or all."""
-        least_px = self.min_side_px or default_min_side_px(grey)
+        least_px = self.min_side_px or default_min_side_px(grey.size)
         white_borders = any(layout.white_border for layout in self._families_by_layout)
         found = squares(grey, least_px, bright=all_squares or white_borders)
         candidates: list[Candidate] = []
@@ -122,7 +122,9 @@ def _detections(
     if not candidates:
         return ()
     corners_px = np.stack([candidate.corners_px for candidate in candidates])
-    pictures = [expected_picture(grey, one.corners_px, one.match) for one in candidates]
+    pictures = [
+        expected_picture(grey, one.corners_px, one.match.family, one.match.id) for one in candidates
+    ]
     refined = exact_corners(grey, corners_px, pictures, camera)
     detections = [
         Detection(
@@ -140,9 +142,9 @@ def _detections(
     return with_duplicates_marked(detections)
 
 
-def default_min_side_px(grey: GreyPixels) -> float:
-    """Return the shortest side of markers that are looked for unless told otherwise."""
-    small_px, large_px = np.sqrt([grey.size / 5e5, grey.size / 2e6])
+def default_min_side_px(pixel_count: int) -> float:
+    """Return the shortest side of markers that an image is searched for unless told otherwise."""
+    small_px, large_px = np.sqrt([pixel_count / 5e5, pixel_count / 2e6])
     return 8.0 * max(1.0, min(2.0, float(small_px)), float(large_px))
 
 

@@ -9,7 +9,7 @@ SMALLEST_SIDE_PX = 8
 
 
 def grey_8bit(pixels: AnyPixels) -> GreyPixels:
-    """Return an image as grey 8-bit values, contiguous.
+    """Return an image as grey 8-bit values, contiguous; nobody writes to them.
 
     Args:
         pixels: Grey (h, w) or (h, w, 1), BGR (h, w, 3) or BGRA (h, w, 4); uint8 or uint16. 16-bit
@@ -23,7 +23,8 @@ def grey_8bit(pixels: AnyPixels) -> GreyPixels:
         pixels = _stretched(pixels)
     if pixels.ndim == 3 and pixels.shape[2] >= 3:
         pixels = _grey_of_bgr(pixels[..., :3])
-    return np.ascontiguousarray(pixels.reshape(pixels.shape[:2]))
+    grey = pixels.reshape(pixels.shape[:2])
+    return np.require(grey, requirements=["C", "W"])  # Numba compiles anew for what is read-only
 
 
 def check_pixels(pixels: AnyPixels) -> None:

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from tagmetry.camera import Camera
-from tagmetry.detect.decode import Match
 from tagmetry.detect.detection import Detection, Findings
 from tagmetry.detect.detector import Detector, default_min_side_px
 from tagmetry.detect.expected import expected_picture
@@ -67,7 +66,7 @@ class Stages:
 def look_through(image: AnyPixels, detector: Detector, camera: Camera | None = None) -> Stages:
     """Return what a detector sees of an image; the image is as for `Detector.detect`."""
     grey = grey_8bit(image)
-    least_px = detector.min_side_px or default_min_side_px(grey)
+    least_px = detector.min_side_px or default_min_side_px(grey.size)
     found = squares(grey, least_px, bright=True)
     findings = detector.explain(image, camera)
     return Stages(
@@ -93,8 +92,7 @@ def _largest(
     detection = max(findings.detections, key=lambda one: one.side_px)
     own = next(one for one in detector.families if one.name == detection.family)
     first_px = _before(detection, found)
-    match = Match(own, detection.id, 0, detection.hamming, detection.confidence)
-    picture = expected_picture(grey, detection.corners_px, match)
+    picture = expected_picture(grey, detection.corners_px, own, detection.id)
     return OneMarker(
         detection,
         own,

@@ -1,0 +1,96 @@
+"""Markers in a part of an image, as a detector finds them, but for their exact corners."""
+
+from collections.abc import Sequence
+
+import cv2
+import numpy as np
+
+from tagmetry.detect.choose import Candidate, Rules, best_per_place
+from tagmetry.detect.decode import read
+from tagmetry.detect.segment import squares
+from tagmetry.detect.track.greyed import Greyed
+from tagmetry.detect.track.hunt import Part
+from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import BoolArray, GreyPixels
+from tagmetry.markers import Layout, MarkerFamily
+
+_LEAST_PART_PX = 8
+_SAME_PLACE = 0.5  # centres closer than this share of a side, and sides alike, are one place
+_ALIKE = 1.6
+
+
+class Search:
+    """Looks for markers in parts of an image.
+
+    Args:
+        families: What is looked for.
+        rules: What passes for a marker.
+    """
+
+    def __init__(self, families: Sequence[MarkerFamily], rules: Rules) -> None:
+        self._rules = rules
+        self._by_layout: dict[Layout, list[MarkerFamily]] = {}
+        for one in families:
+            self._by_layout.setdefault(one.layout, []).append(one)
+        self._bright = rules.inverted or any(layout.white_border for layout in self._by_layout)
+
+    def candidates(self, image: Greyed, part: Part, known_px: Array) -> list[Candidate]:
+        """Return the markers in a part of an image, in the image's pixels.
+
+        Args:
+            image: The image.
+            part: Which part, and at what scale.
+            known_px: Squares whose places are not looked at, shape (n, 4, 2).
+        """
+        left, top, right, bottom = part.box
+        if min(right - left, bottom - top) * part.scale < _LEAST_PART_PX:
+            return []
+        grey = _scaled(image.look_at(part.box[None])[top:bottom, left:right], part.scale)
+        found = squares(grey, part.scale * part.least_px, bright=self._bright)
+        corners_px = (found.corners_px + 0.5) / part.scale - 0.5 + [left, top]
+        free = ~in_places(corners_px, known_px)
+        judged = self._judged(image.grey, corners_px[free], found.is_bright[free])
+        return best_per_place(judged)
+
+    def _judged(self, grey: GreyPixels, corners_px: Array, is_bright: BoolArray) -> list[Candidate]:
+        """Read squares in every layout."""
+        if not len(corners_px):
+            return []
+        judged: list[Candidate | str] = []
+        for layout, families in self._by_layout.items():
+            here = self._rules.inverted | (is_bright == layout.white_border)
+            judged += [
+                self._rules.judge(corners, bool(bright), reading, families)
+                for corners, bright, reading in zip(
+                    corners_px[here],
+                    is_bright[here],
+                    read(grey, corners_px[here], layout),
+                    strict=True,
+                )
+            ]
+        return [one for one in judged if isinstance(one, Candidate)]
+
+
+def in_places(corners_px: Array, known_px: Array) -> BoolArray:
+    """Say which squares (n, 4, 2) stand in the place of one of others (m, 4, 2), shape (n,)."""
+    if not (len(corners_px) and len(known_px)):
+        return np.zeros(len(corners_px), dtype=bool)
+    sides_px, known_sides_px = _side_px(corners_px)[:, None], _side_px(known_px)
+    apart_px = np.linalg.norm(corners_px.mean(axis=1)[:, None] - known_px.mean(axis=1), axis=2)
+    smaller = np.minimum(sides_px, known_sides_px)
+    alike = np.maximum(sides_px, known_sides_px) < _ALIKE * smaller
+    return np.asarray((alike & (apart_px < _SAME_PLACE * smaller)).any(axis=1))
+
+
+def _side_px(corners_px: Array) -> Array:
+    sides = np.roll(corners_px, -1, axis=1) - corners_px
+    return np.asarray(np.linalg.norm(sides, axis=2).mean(axis=1))
+
+
+def _scaled(part: GreyPixels, scale: float) -> GreyPixels:
+    if scale == 1.0:
+        return np.ascontiguousarray(part)
+    step = round(1 / scale)
+    size = (part.shape[1] // step, part.shape[0] // step)
+    whole = part[: size[1] * step, : size[0] * step]
+    return np.asarray(cv2.resize(whole, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)

@@ -1,0 +1,232 @@
+"""The tracker: markers followed from image to image, each found anew in every one.
+
+predict (where should it be? motion) -> look (is it there? nudge, sight) -> search (around lost
+ones, and a strip of the image for new ones) -> exact (where exactly).
+
+What is reported was read and measured in this image alone. The past only says where to look, so
+errors of one image do not reach the next, and a marker that is covered is not reported.
+"""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from tagmetry.camera import Camera
+from tagmetry.detect.choose import best_per_place
+from tagmetry.detect.detection import Detection
+from tagmetry.detect.detector import Detector, default_min_side_px
+from tagmetry.detect.exact import exact_corners
+from tagmetry.detect.expected import expected_picture
+from tagmetry.detect.refine import Corners
+from tagmetry.detect.track.claims import claimed
+from tagmetry.detect.track.expected import as_expected
+from tagmetry.detect.track.followed import followed
+from tagmetry.detect.track.greyed import Greyed
+from tagmetry.detect.track.hunt import Part, parts_around, turn_part, whole
+from tagmetry.detect.track.known import Announced, Known, known_at
+from tagmetry.detect.track.lost import Lost
+from tagmetry.detect.track.motion import predicted
+from tagmetry.detect.track.report import detections
+from tagmetry.detect.track.search import Search
+from tagmetry.detect.track.seen import Seen
+from tagmetry.detect.track.strips import turns
+from tagmetry.detect.track.tracks import Tracks
+from tagmetry.errors import InputError
+from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import AnyPixels
+from tagmetry.markers import MarkerFamily
+
+
+class Tracker:
+    """Follows markers through the images of one camera.
+
+    The first image is looked at whole, and so is the first one after a gap longer than `forget_s`
+    or of another size: it begins anew then. In every other image, followed markers are looked for
+    where they should be, and new ones in one part of the image; `images_to_acquire` says how many
+    images it takes until every part had its turn.
+
+    Args:
+        detector: What to look for: a detector, or families for one.
+        strips: Into how many strips of rows the image is cut to look for new small markers. More
+            make an image quicker and the time to find a new marker longer.
+        forget_s: For how long a marker that is not seen is looked for where it should be.
+        fastest_px_s: How fast a marker may move that was seen once only.
+    """
+
+    def __init__(
+        self,
+        detector: Detector | Iterable[str | MarkerFamily] = ("tag36h11",),
+        *,
+        strips: int = 16,
+        forget_s: float = 0.5,
+        fastest_px_s: float = 1200.0,
+    ) -> None:
+        self.detector = detector if isinstance(detector, Detector) else Detector(detector)
+        if strips < 1:
+            raise InputError(f"strips must be 1 or more, got {strips}")
+        for name, value in (("forget_s", forget_s), ("fastest_px_s", fastest_px_s)):
+            if not 0 < value < np.inf:
+                raise InputError(f"{name} must be positive, got {value}")
+        self.strips = strips
+        self.forget_s = forget_s
+        self.fastest_px_s = fastest_px_s
+        self._search = Search(self.detector.families, self.detector.rules)
+        self._announced: list[Announced] = []
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget everything: the next image may be of another time, camera or place."""
+        self._tracks = Tracks.none()
+        self._turn = 0
+        self._time_s: float | None = None
+        self._size_px: tuple[int, int] | None = None
+
+    @property
+    def lost(self) -> tuple[Lost, ...]:
+        """The markers that the last image did not show and that are still looked for."""
+        if self._time_s is None:
+            return ()
+        lost = self._tracks.at(self._tracks.seen_s < self._time_s)
+        where = predicted(lost, self._time_s, self.fastest_px_s)
+        return tuple(
+            Lost(
+                self.detector.families[lost.families[i]].name,
+                int(lost.ids[i]),
+                where.corners_px[i],
+                float(where.deviation_px[i]),
+                float(self._time_s - lost.seen_s[i]),
+            )
+            for i in range(len(lost))
+        )
+
+    def images_to_acquire(self, width_px: int, height_px: int) -> int:
+        """Return after how many images of a size a new marker has been looked for at its place.
+
+        That is a bound for markers of all sizes that move less than 16 px per image.
+        """
+        return len(turns(height_px, self._least_px((width_px, height_px)), self.strips))
+
+    def expect(
+        self,
+        family: str,
+        marker_id: int,
+        corners_px: Array,
+        deviation_px: float,
+        *,
+        is_inverted: bool = False,
+    ) -> None:
+        """Say where a marker should be in the next image, for example by a map and a known motion.
+
+        Args:
+            family: Name of its family, one that the detector looks for.
+            marker_id: Its id.
+            corners_px: Clockwise from its own top left, shape (4, 2).
+            deviation_px: How far it may be from there, standard deviation.
+            is_inverted: It is printed white on black.
+        """
+        names = [one.name for one in self.detector.families]
+        if family not in names:
+            raise InputError(f"{family} is not looked for; this tracker knows {', '.join(names)}")
+        place = names.index(family)
+        corners = np.array(corners_px, dtype=np.float64)
+        if corners.shape != (4, 2) or not np.isfinite(corners).all():
+            raise InputError("corners_px must be finite and of shape (4, 2)")
+        if not 0 < deviation_px < np.inf:
+            raise InputError(f"deviation_px must be positive, got {deviation_px}")
+        number = self.detector.families[place].checked_id(marker_id)
+        self._announced.append(Announced(place, number, corners, deviation_px, is_inverted))
+
+    def track(
+        self, image: AnyPixels, time_s: float, camera: Camera | None = None
+    ) -> tuple[Detection, ...]:
+        """Return the markers that an image shows, ordered by family and id.
+
+        Args:
+            image: Grey or BGR, uint8 or uint16, shape (h, w) or (h, w, 3).
+            time_s: When it was taken; later than the image before.
+            camera: Intrinsics of the image; may differ from image to image.
+
+        Raises:
+            InputError: No such image, or time stands still or runs backwards.
+        """
+        looked_at = self._checked(image, time_s, camera)
+        size_px, families = looked_at.size_px, self.detector.families
+        since_s = self._since_s(size_px, time_s)
+        known = known_at(self._tracks, self._announced, time_s, since_s, self.fastest_px_s)
+        expected = as_expected(looked_at, families, self.detector.rules, known)
+        found = self._found(looked_at, known, expected)
+        seen, corners = _exact(looked_at, expected, found, families, camera)
+        self._tracks = followed(known, seen, corners.corners_px, time_s, self.forget_s)
+        self._time_s, self._size_px, self._turn = time_s, size_px, self._turn + 1
+        self._announced = []
+        return detections(seen, corners, families, size_px)
+
+    def _checked(self, image: AnyPixels, time_s: float, camera: Camera | None) -> Greyed:
+        looked_at = Greyed(image)
+        if camera is not None:
+            camera.check_image(*looked_at.size_px)
+        if not np.isfinite(time_s):
+            raise InputError(f"time_s must be finite, got {time_s}")
+        if self._time_s is not None and time_s <= self._time_s:
+            raise InputError(
+                f"time_s must rise from image to image, got {time_s} after {self._time_s}; "
+                "call reset() before images of another time"
+            )
+        return looked_at
+
+    def _since_s(self, size_px: tuple[int, int], time_s: float) -> float:
+        """Return the time since the last image; 0 where all begins anew."""
+        if self._time_s is not None and size_px == self._size_px:
+            since_s = time_s - self._time_s
+            if since_s <= self.forget_s:
+                return since_s
+        self.reset()
+        return 0.0
+
+    def _new_part(self, size_px: tuple[int, int]) -> Part:
+        """Return what part of the image is searched for new markers."""
+        if self._time_s is None:
+            return whole(size_px, self._least_px(size_px))
+        plan = turns(size_px[1], self._least_px(size_px), self.strips)
+        return turn_part(plan[self._turn % len(plan)], size_px[0])
+
+    def _found(self, looked_at: Greyed, known: Known, expected: Seen) -> Seen:
+        """Return the markers that searching finds beside those that were seen where expected."""
+        is_lost = np.ones(len(known.tracks), dtype=bool)
+        is_lost[expected.rows] = False
+        size_px = looked_at.size_px
+        around = parts_around(known, is_lost, size_px, self._least_px(size_px))
+        found = [
+            one
+            for part in [*around, self._new_part(size_px)]
+            for one in self._search.candidates(looked_at, part, expected.corners_px)
+        ]
+        return claimed(best_per_place(found), known, is_lost, self.detector.families)
+
+    def _least_px(self, size_px: tuple[int, int]) -> float:
+        return self.detector.min_side_px or default_min_side_px(size_px[0] * size_px[1])
+
+
+def _exact(
+    looked_at: Greyed,
+    expected: Seen,
+    found: Seen,
+    families: Sequence[MarkerFamily],
+    camera: Camera | None,
+) -> tuple[Seen, Corners]:
+    """Return the markers that are reported, with their exact corners.
+
+    What was seen where it was expected must be measured too, to be believed.
+    """
+    seen = expected.and_also(found)
+    if not len(seen):
+        return seen, Corners(seen.corners_px, np.zeros((0, 8, 8)), np.zeros(0, dtype=bool))
+    pictures = [
+        expected_picture(looked_at.grey, seen.corners_px[i], families[place], int(seen.ids[i]))
+        for i, place in enumerate(seen.families.tolist())
+    ]
+    exact = exact_corners(looked_at.grey, seen.corners_px, pictures, camera)
+    kept = exact.refined.copy()
+    kept[len(expected) :] = True
+    corners = Corners(exact.corners_px[kept], exact.covariances_px2[kept], exact.refined[kept])
+    return seen.at(kept), corners
