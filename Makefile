@@ -40,6 +40,7 @@ pages: $(VENV)/dev.stamp ## Make the pictures and the command reference of the d
 	$(BIN)/python docs/make_pictures.py
 	$(BIN)/python docs/make_effects.py
 	$(BIN)/python docs/make_calibration_pictures.py
+	$(BIN)/python docs/make_stage_pictures.py
 	$(BIN)/python docs/make_pages.py
 
 bench: $(VENV)/dev.stamp ## Time detection and pose against the peers
