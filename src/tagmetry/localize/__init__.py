@@ -2,6 +2,7 @@
 
 from tagmetry.localize.average import MeanOfMarkers, WeightedByDistance
 from tagmetry.localize.fused import FusedByCovariance
+from tagmetry.localize.joint import JointCorners
 from tagmetry.localize.knowledge import Gravity, Height, Knowledge, PlanarRobot
 from tagmetry.localize.localizer import METHODS, Localizer, MethodName
 from tagmetry.localize.marker_map import MapMarker, MarkerMap
@@ -17,6 +18,7 @@ __all__ = [
     "FusedByCovariance",
     "Gravity",
     "Height",
+    "JointCorners",
     "Knowledge",
     "Localizer",
     "MapMarker",

@@ -12,14 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from tagmetry.camera import Camera
-from tagmetry.geometry import Array, RigidTransform, UncertainTransform
+from tagmetry.geometry import Array, UncertainTransform
 from tagmetry.localize.marker_map import MapMarker
 from tagmetry.localize.result import CameraHypothesis
 from tagmetry.localize.seen import SeenMarker
-from tagmetry.markers import marker_corners_m
 from tagmetry.pose import MarkerPose, PoseHypothesis, estimate_poses
-from tagmetry.pose.refine import Poses, Sightings, refine
-from tagmetry.pose.whitening import whitening
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,32 +58,6 @@ def marker_views(seen: Sequence[SeenMarker], camera: Camera) -> tuple[MarkerView
         [one.detection for one in seen], camera, [one.marker.size_m for one in seen]
     )
     return tuple(_view(one, pose) for one, pose in zip(seen, poses, strict=True) if pose.hypotheses)
-
-
-def covariances_at(
-    T_world_camera: RigidTransform, views: Sequence[MarkerView], camera: Camera
-) -> Array:
-    """Return the covariances that the markers' own poses would have if the camera were there.
-
-    A pose's own covariance belongs to where the noise has put it: a marker that seems to lean more
-    than it does seems to be more certain, too. At a common pose the weights are free of that.
-
-    Returns:
-        Shape (n, 6, 6), on the left in the world frame; NaN where a marker would not be seen.
-    """
-    T_camera_world = T_world_camera.inv()
-    Ts = [T_camera_world * view.marker.T_world_marker for view in views]
-    seen = Sightings(
-        marker_corners_m(np.array([view.marker.size_m for view in views])),
-        np.stack([view.seen.detection.corners_px for view in views]),
-        whitening(np.stack([view.seen.detection.corners_cov_px2 for view in views])),
-    )
-    fit = refine(Poses.of(RigidTransform.concatenate(Ts)), seen, camera, max_iterations=0)
-    chained = [
-        view.marker.uncertain @ UncertainTransform(T_camera_marker, covariance).inverse()
-        for view, T_camera_marker, covariance in zip(views, Ts, fit.covariances, strict=True)
-    ]
-    return np.stack([one.covariance for one in chained])
 
 
 def _view(seen: SeenMarker, pose: MarkerPose) -> MarkerView:

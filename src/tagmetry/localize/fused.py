@@ -2,8 +2,9 @@
 
 Minimises the sum of `d_i^T C_i^-1 d_i` with `d_i` the difference between the pose and marker i's,
 on the group. Of each marker the hypothesis is taken that agrees with the others, so a flip needs
-all markers to agree on it; one that agrees in neither is left out. The covariances are first the
-markers' own, then those that they have at the common pose. What is lost against the joint solution:
+all markers to agree on it; one that agrees in neither is left out. The covariances are those that
+the markers' poses have at the common pose: a marker's own is smaller where noise makes it lean.
+What is lost against the joint solution:
 a marker's two poses with their covariances are less than its corners, so far markers make the
 stated covariance too small; and markers of one body are taken to err independently.
 """
@@ -17,16 +18,19 @@ from scipy.special import chdtri
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform, perturb_pose, pose_difference
 from tagmetry.geometry.arrays import BoolArray, IntArray
-from tagmetry.localize.chain import MarkerView, covariances_at, marker_views
+from tagmetry.localize.chain import MarkerView, marker_views
+from tagmetry.localize.joint.equations import informations
+from tagmetry.localize.joint.scene import Scene, scene_of
 from tagmetry.localize.knowledge import Knowledge
 from tagmetry.localize.result import CameraHypothesis, Rejection
 from tagmetry.localize.seen import SeenMarker
 
 GATE = float(chdtri(6, 1e-4))  # one good marker in ten thousand is turned away
+_MEDIAN = 5.35  # median of chi2 with 6 degrees of freedom
 _ROUNDS = 5
 _DISTINCT = 3.0  # standard deviations between two solutions that are not one
 _IMPROBABLE = 1e-6
-_MOST = 3  # solutions that are worth a second look
+_MOST = 4  # markers to start from, and rough solutions that are worth a second look
 _WHY = "its pose disagrees with the other markers'"
 
 
@@ -43,13 +47,15 @@ class FusedByCovariance:
         camera: Camera,
         known: Knowledge,  # noqa: ARG002
     ) -> tuple[CameraHypothesis, ...]:
-        """Return the poses that markers agree on, each started from one hypothesis of one."""
+        """Return the poses that markers agree on, started from the surest markers' own."""
         views = marker_views(seen, camera)
         if not views:
             return ()
-        opinions = _Opinions.of(views)
-        rough = _distinct([_fused(opinions, start) for start in opinions.poses])
-        return _distinct([_fused(opinions, one.T_world_camera, camera) for one in rough[:_MOST]])
+        opinions = _Opinions.of(views, camera)
+        surest = sorted(views, key=lambda view: view.expected_error2_m2)[:_MOST]
+        starts = [one.T_world_camera for view in surest for one in view.hypotheses]
+        rough = _distinct([_fused(opinions, start) for start in starts])[:_MOST]
+        return _distinct([_fused(opinions.at(T), T) for T in (one.T_world_camera for one in rough)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +68,7 @@ class _Opinions:
         poses: T_world_camera of the k hypotheses.
         informations: Of the hypotheses, shape (k, 6, 6).
         surprises: -2 log of their probabilities, shape (k,).
+        scene: The corners that they come from.
     """
 
     views: Sequence[MarkerView]
@@ -69,9 +76,10 @@ class _Opinions:
     poses: RigidTransform
     informations: Array
     surprises: Array
+    scene: Scene
 
     @classmethod
-    def of(cls, views: Sequence[MarkerView]) -> "_Opinions":
+    def of(cls, views: Sequence[MarkerView], camera: Camera) -> "_Opinions":
         pairs = [(n, one) for n, view in enumerate(views) for one in view.hypotheses]
         probability = np.array([one.probability for _, one in pairs])
         return cls(
@@ -80,14 +88,15 @@ class _Opinions:
             RigidTransform.concatenate([one.T_world_camera for _, one in pairs]),
             np.linalg.inv(np.stack([one.covariance for _, one in pairs])),
             -2 * np.log(np.maximum(probability, 1e-300)),
+            scene_of([view.seen for view in views], camera, Knowledge())[0],
         )
 
-    def at(self, T_world_camera: RigidTransform, camera: Camera) -> "_Opinions":
+    def at(self, T_world_camera: RigidTransform) -> "_Opinions":
         """Return the same with the informations that they would have at a common pose."""
-        common = covariances_at(T_world_camera, self.views, camera)
-        usable = np.asarray(np.isfinite(common).all(axis=(1, 2)))
-        common = np.linalg.inv(np.where(usable[:, None, None], common, np.eye(6)))[self.owner]
-        kept = np.where(usable[self.owner, None, None], common, self.informations)
+        T = T_world_camera.as_matrix()
+        common, in_front = informations(self.scene, T[:3, :3].copy(), T[:3, 3].copy())
+        usable = in_front & (np.linalg.eigvalsh(common)[:, 0] > 0)
+        kept = np.where(usable[self.owner, None, None], common[self.owner], self.informations)
         return replace(self, informations=kept)
 
 
@@ -107,24 +116,15 @@ class _Choice:
 
     @property
     def agrees(self) -> BoolArray:
-        """Which markers agree, shape (n,)."""
-        return np.asarray(self.costs <= GATE)
+        """Which markers agree, (n,): far ones' poses err more than their covariances say."""
+        excess = max(1.0, float(np.median(self.costs)) / _MEDIAN)
+        return np.asarray(self.costs <= GATE * excess)
 
 
-def _fused(
-    opinions: _Opinions, start: RigidTransform, camera: Camera | None = None
-) -> CameraHypothesis:
-    """Return what the markers near a starting pose agree on; `chi2` also counts those left out.
-
-    Args:
-        opinions: What each marker says.
-        start: T_world_camera.
-        camera: With it, covariances are those at the common pose; without, the markers' own.
-    """
-    T = start
+def _fused(opinions: _Opinions, start: RigidTransform) -> CameraHypothesis:
+    """Return what the markers near a starting pose agree on; `chi2` also counts those left out."""
+    T, covariance = start, np.zeros((6, 6))
     for _ in range(_ROUNDS):
-        if camera is not None:
-            opinions = opinions.at(T, camera)
         T, covariance = _mean(_chosen(opinions, T), T)
     choice = _chosen(opinions, T)
     keys = [view.marker.key for view in opinions.views]
@@ -168,4 +168,5 @@ def _distinct(solutions: Sequence[CameraHypothesis]) -> tuple[CameraHypothesis, 
 
 def _deviations(one: CameraHypothesis, other: CameraHypothesis) -> float:
     apart = pose_difference(one.T_world_camera, other.T_world_camera)
-    return float(np.sqrt(apart @ np.linalg.solve(other.covariance, apart)))
+    distance2 = float(apart @ np.linalg.solve(other.covariance, apart))
+    return float(np.sqrt(max(distance2, 0.0)))

@@ -12,8 +12,7 @@ import numpy as np
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform
 
-_LEAST_RAD = 1e-6  # stands for exact, and the equations stay solvable
-_LEAST_M = 1e-6
+_LEAST = 1e-6  # m or rad; stands for exact, and the equations stay solvable
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,20 +111,15 @@ def _check_deviation(name: str, value: float) -> None:
         raise InputError(f"{name} must be finite and not negative, got {value}")
 
 
-def sharpness(deviation: float, least: float) -> float:
-    """Return 1 / deviation; `least` stands for a deviation of zero."""
-    return 1.0 / max(deviation, least)
+def known_rows(known: Knowledge) -> Array:
+    """Return what is known as rows (n, 6): see `joint.scene.Scene.known`."""
+    rows = [
+        [*(one.up_camera / np.linalg.norm(one.up_camera)), 0.0, _sharp(one.deviation_rad), 0.0]
+        for one in known.ups
+    ]
+    rows += [[*one.p_camera, one.z_m, _sharp(one.deviation_m), 1.0] for one in known.heights]
+    return np.array(rows, dtype=np.float64).reshape(-1, 6)
 
 
-def up_rows(known: Knowledge) -> tuple[Array, Array]:
-    """Return unit vectors up_camera (n, 3) and 1 / deviation (n,), 1 / rad."""
-    ups = [one.up_camera / np.linalg.norm(one.up_camera) for one in known.ups]
-    sharp = [sharpness(one.deviation_rad, _LEAST_RAD) for one in known.ups]
-    return np.array(ups, dtype=np.float64).reshape(-1, 3), np.array(sharp, dtype=np.float64)
-
-
-def height_rows(known: Knowledge) -> tuple[Array, Array]:
-    """Return (p_camera, z) (n, 4), metres, and 1 / deviation (n,), 1 / m."""
-    points = [[*one.p_camera, one.z_m] for one in known.heights]
-    sharp = [sharpness(one.deviation_m, _LEAST_M) for one in known.heights]
-    return np.array(points, dtype=np.float64).reshape(-1, 4), np.array(sharp, dtype=np.float64)
+def _sharp(deviation: float) -> float:
+    return 1.0 / max(deviation, _LEAST)

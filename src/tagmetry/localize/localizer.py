@@ -9,6 +9,7 @@ from tagmetry.detect import Detection
 from tagmetry.errors import InputError
 from tagmetry.localize.average import MeanOfMarkers, WeightedByDistance
 from tagmetry.localize.fused import FusedByCovariance
+from tagmetry.localize.joint.solve import JointCorners
 from tagmetry.localize.knowledge import Knowledge
 from tagmetry.localize.marker_map import MarkerMap
 from tagmetry.localize.method import Method
@@ -16,12 +17,13 @@ from tagmetry.localize.result import CameraPose
 from tagmetry.localize.seen import known_markers
 from tagmetry.localize.single import SingleMarker
 
-MethodName = Literal["single", "mean", "weighted", "covariance"]
+MethodName = Literal["single", "mean", "weighted", "covariance", "joint"]
 METHODS: dict[str, Method] = {
     "single": SingleMarker(),
     "mean": MeanOfMarkers(),
     "weighted": WeightedByDistance(),
     "covariance": FusedByCovariance(),
+    "joint": JointCorners(),
 }
 _NOTHING = Knowledge()
 
@@ -39,7 +41,7 @@ class Localizer:
 
     marker_map: MarkerMap
     camera: Camera
-    method: MethodName | Method = "covariance"
+    method: MethodName | Method = "joint"
     known: Knowledge = field(default_factory=Knowledge)
 
     def __post_init__(self) -> None:

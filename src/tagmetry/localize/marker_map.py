@@ -64,10 +64,26 @@ class MapMarker:
         """Its name for people: `tag36h11 id 7`."""
         return f"{self.family} id {self.id}"
 
-    @property
+    @cached_property
     def p_world(self) -> Array:
         """Its corners in the world, clockwise from its top left, shape (4, 3), metres."""
         return np.asarray(self.T_world_marker.apply(marker_corners_m(self.size_m)))
+
+    @cached_property
+    def matrix(self) -> Array:
+        """T_world_marker as a matrix, shape (4, 4)."""
+        return np.asarray(self.T_world_marker.as_matrix())
+
+    @cached_property
+    def covariance_root(self) -> Array:
+        """S with S S^T the covariance, shape (6, 6)."""
+        variances, axes = np.linalg.eigh(self.covariance)
+        return np.asarray(axes * np.sqrt(np.maximum(variances, 0.0)))
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether its place is taken to be known exactly."""
+        return not self.covariance.any()
 
     @property
     def uncertain(self) -> UncertainTransform:

@@ -48,33 +48,46 @@ class KnownMarkers:
 def known_markers(detections: Sequence[Detection], marker_map: MarkerMap) -> KnownMarkers:
     """Sort detections into those that the map knows and those that are passed over."""
     times = Counter((detection.family, detection.id) for detection in detections)
+    usable = _are_usable(detections)
     seen: list[SeenMarker] = []
     passed_over: dict[MarkerKey, str] = {}
-    for detection in detections:
+    for detection, is_usable in zip(detections, usable, strict=True):
         key = MarkerKey(detection.family, detection.id)
         marker = marker_map.by_key.get(key)
         if marker is None:
             passed_over[key] = "it is not in the map"
         elif times[key] > 1:
             passed_over[key] = f"it was seen {times[key]} times in one image"
-        elif not _is_usable(detection):
+        elif not is_usable:
             passed_over[key] = "its corners or their covariance are no usable numbers"
         else:
             seen.append(SeenMarker(marker, detection))
     return KnownMarkers(tuple(seen), tuple(Rejection(*item) for item in passed_over.items()))
 
 
-def _is_usable(detection: Detection) -> bool:
-    corners, covariance = detection.corners_px, detection.corners_cov_px2
-    is_whole = corners.shape == (4, 2) and covariance.shape == (8, 8)
-    return is_whole and bool((np.abs(corners) < _FARTHEST_PX).all()) and _is_positive(covariance)
+def _are_usable(detections: Sequence[Detection]) -> list[bool]:
+    """Say of each marker whether its numbers are; all at once, since they nearly always are."""
+    try:
+        if _is_usable(detections):
+            return [True] * len(detections)
+    except ValueError:  # some are of another shape
+        pass
+    return [_is_usable([one]) for one in detections]
 
 
-def _is_positive(covariance: Array) -> bool:
-    if not np.isfinite(covariance).all():
+def _is_usable(detections: Sequence[Detection]) -> bool:
+    corners = np.array([one.corners_px for one in detections], dtype=np.float64)
+    covariances = np.array([one.corners_cov_px2 for one in detections], dtype=np.float64)
+    if corners.shape[1:] != (4, 2) or covariances.shape[1:] != (8, 8):
+        return False
+    return bool((np.abs(corners) < _FARTHEST_PX).all()) and _are_positive(covariances)
+
+
+def _are_positive(covariances: Array) -> bool:
+    if not np.isfinite(covariances).all():
         return False
     try:
-        np.linalg.cholesky(covariance)
+        np.linalg.cholesky(covariances)
     except np.linalg.LinAlgError:
         return False
     return True
