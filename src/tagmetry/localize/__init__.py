@@ -7,6 +7,7 @@ from tagmetry.localize.knowledge import Gravity, Height, Knowledge, PlanarRobot
 from tagmetry.localize.localizer import METHODS, Localizer, MethodName
 from tagmetry.localize.marker_map import MapMarker, MarkerMap
 from tagmetry.localize.method import Method
+from tagmetry.localize.planar import PlanarPose, camera_on_floor, robot_on_floor
 from tagmetry.localize.result import CameraHypothesis, CameraPose, Rejection
 from tagmetry.localize.seen import SeenMarker
 from tagmetry.localize.single import SingleMarker
@@ -26,9 +27,12 @@ __all__ = [
     "MeanOfMarkers",
     "Method",
     "MethodName",
+    "PlanarPose",
     "PlanarRobot",
     "Rejection",
     "SeenMarker",
     "SingleMarker",
     "WeightedByDistance",
+    "camera_on_floor",
+    "robot_on_floor",
 ]

@@ -2,7 +2,11 @@
 
 Each says a little of the six numbers of the pose, with a deviation, and enters the joint solution
 as a measurement does. A robot on a flat floor is both: its up is the world's, and its foot stands
-on the floor. What is left is x, y and the heading, and a single marker is no longer ambiguous.
+on the floor. What is left is x, y and the heading.
+
+A single marker is then no longer ambiguous where it is seen clearly from below or above: its mirror
+pose leans by twice that angle. Level with the camera, an upright marker that is turned a little to
+the left looks as one turned to the right, floor or not; both poses are given.
 """
 
 from dataclasses import dataclass, field
