@@ -6,7 +6,7 @@ import pytest
 from printed_markers import printed
 
 from tagmetry.detect import Detection, Detector
-from tagmetry.detect.decode import Match
+from tagmetry.detect.doctor import diagnose
 from tagmetry.detect.expected import expected_picture
 from tagmetry.markers import family
 
@@ -56,6 +56,13 @@ def test_the_library_s_drawing_is_found_on_any_ground(name: str, ground: int) ->
     np.testing.assert_allclose(found.corners_px, square_px(name), atol=0.03)
     error = (found.corners_px - square_px(name)).ravel()
     assert error @ np.linalg.solve(found.corners_cov_px2, error) < 22  # of 8: one in 200
+
+
+def test_the_doctor_names_the_family_that_was_not_asked_for() -> None:
+    pixels = pixels_of(family("tagStandard52h13").picture(30))
+    (advice,) = diagnose(pixels, [family("tag36h11")])
+    assert advice.title == "another family"
+    assert "tagStandard52h13 id 30" in advice.explanation
 
 
 @every_family
@@ -126,8 +133,6 @@ def test_free_cells_are_expected_as_they_are_seen(white: bool) -> None:
     own = family("tagCustom48h12")
     cells = own.picture(9)
     cells[4:6, 4:6] = white
-    picture = expected_picture(
-        pixels_of(cells), square_px(own.name), Match(own, 9, quarters=0, hamming=0, confidence=1.0)
-    )
+    picture = expected_picture(pixels_of(cells), square_px(own.name), own, 9)
     np.testing.assert_array_equal(picture.cells[1:-1, 1:-1], cells)
     assert picture.margin_cells == 3

@@ -29,13 +29,14 @@ _DISC_QUIET = 0.25  # of a diameter
 
 @dataclass(frozen=True)
 class _Facts:
-    """What printing must know of a board beyond its ink."""
+    """What printing must know of a board beyond its ink; bits may reach beyond its pattern."""
 
     title: str
     places: int
     size_name: str
     size_m: float
     cell_m: float
+    reach_m: float = 0.0
 
 
 def board_tile(board: Board, quiet_cells: int = 1, *, inverted: bool = False) -> Tile:
@@ -57,7 +58,7 @@ def board_tile(board: Board, quiet_cells: int = 1, *, inverted: bool = False) ->
             f"a board may have up to {_MOST_PLACES} places, got {facts.places}; "
             "print fewer rows or columns"
         )
-    quiet_m = quiet_cells * facts.cell_m
+    quiet_m = quiet_cells * facts.cell_m + facts.reach_m
     return labelled(
         ink=_ink(board, quiet_m),
         width_m=board.width_m + 2 * quiet_m,
@@ -120,18 +121,28 @@ def _grid_facts(board: GridBoard) -> _Facts:
         f"Grid {board.columns}x{board.rows}, size {format_mm(board.size_m)}, "
         f"gap {format_mm(board.gap_m)}, {_ids(tags, board.first_id, places)}"
     )
-    return _Facts(title, places, "size", board.size_m, cell_m(tags, board.size_m))
+    return _marker_facts(title, places, tags, board.size_m)
 
 
 def _aprilgrid_facts(board: AprilGrid) -> _Facts:
     tags = family(board.family)
     places = board.columns * board.rows
+    if tags.layout.margin_cells:
+        raise InputError(
+            f"an AprilGrid has black squares at its markers' corners, where {tags.name} has bits; "
+            "print a grid board instead, or choose a family of black squares such as tag36h11"
+        )
     _check_white(tags, board.size_m, board.grid.gap_m, "spacing")
     title = (
         f"AprilGrid {board.columns}x{board.rows}, size {format_mm(board.size_m)}, "
         f"spacing {board.spacing:g}, {_ids(tags, board.first_id, places)}"
     )
-    return _Facts(title, places, "size", board.size_m, cell_m(tags, board.size_m))
+    return _marker_facts(title, places, tags, board.size_m)
+
+
+def _marker_facts(title: str, places: int, tags: MarkerFamily, size_m: float) -> _Facts:
+    cell = cell_m(tags, size_m)
+    return _Facts(title, places, "size", size_m, cell, tags.layout.margin_cells * cell)
 
 
 def _chessboard_facts(board: Chessboard) -> _Facts:
@@ -153,6 +164,7 @@ def _charuco_facts(board: CharucoBoard) -> _Facts:
     )
     places = board.columns * board.rows
     check_printable("size", board.size_m)
+    _check_within(tags, board.size_m, board.square_m)
     return _Facts(title, places, "square", board.square_m, cell_m(tags, board.size_m))
 
 
@@ -177,4 +189,15 @@ def _check_white(tags: MarkerFamily, size_m: float, gap_m: float, name: str) -> 
         raise InputError(
             f"the {name} leaves {format_mm(gap_m)} between markers, which need at least one cell, "
             f"{format_mm(least_m)}"
+        )
+
+
+def _check_within(tags: MarkerFamily, size_m: float, square_m: float) -> None:
+    """Refuse markers whose outer bits would lie on the black squares around their own."""
+    printed_m = size_m + 2 * tags.layout.margin_cells * cell_m(tags, size_m)
+    if printed_m > square_m:
+        raise InputError(
+            f"{tags.name} prints {format_mm(printed_m)} for a size of {format_mm(size_m)}, more "
+            f"than a square of {format_mm(square_m)}; the largest size is "
+            f"{format_mm(size_m * square_m / printed_m)}"
         )
