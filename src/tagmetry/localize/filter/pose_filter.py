@@ -144,9 +144,7 @@ def _with_image(state: _State | None, time_s: float, pose: CameraPose) -> _State
         return state
     if state is None:
         return _begun(time_s, pose)
-    pairs = [
-        _met(branch, pose, n) for branch in state.branches for n in range(len(pose.hypotheses))
-    ]
+    pairs = [_met(branch, one) for branch in state.branches for one in pose.hypotheses]
     met = [(branch, surprise2) for branch, surprise2 in pairs if surprise2 <= _GATE]
     if met:
         surprise2 = max(met, key=lambda one: one[0].log_weight)[1]
