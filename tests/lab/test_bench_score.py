@@ -124,7 +124,8 @@ def test_variants_of_one_author_do_not_make_an_agreement() -> None:
 
 def test_agreed_corners_lie_between_the_authors() -> None:
     courses = [
-        Course(kind(Good, f"a-{k}", author="A"), {0: Found.of([3], [SQUARE])}) for k in range(3)
+        Course(kind(Good, f"a-{off}", author="A"), {0: Found.of([3], [SQUARE + off])})
+        for off in (5.0, 0.0, -0.1)
     ]
     courses.append(Course(kind(Good, "b", author="B"), {0: Found.of([3], [SQUARE + 0.4])}))
     (common,) = agreed(courses, images=1)
