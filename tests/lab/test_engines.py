@@ -55,6 +55,19 @@ def test_nothing_found_has_no_corners(kind: EngineKind) -> None:
     assert found.corners_px.shape == (0, 4, 2)
 
 
+def test_the_tracker_follows_a_film() -> None:
+    setup = Setup("film", 4, 60.0, (320, 240), cluttered=False, images=6)
+    film = rendered(setup, "tag36h11")
+    (kind,) = [kind for kind in installed() if kind.tracks]
+    tracker = kind.make("tag36h11", 1)
+    for grey, truth in zip(film.images, film.truths, strict=True):
+        found = tracker.detect(grey)
+        pairs = matched(found, truth)
+        assert len(pairs.true) == 4
+        off_px = found.corners_px[pairs.found] - truth.corners_px[pairs.true]
+        assert np.sqrt(np.mean(off_px**2)) < 0.02
+
+
 def test_engines_are_chosen_by_name_and_ours_is_always_there() -> None:
     names = [kind.name for kind in chosen(["opencv-subpix"])]
     assert names == ["tagmetry", "opencv-subpix"]
@@ -69,7 +82,7 @@ def test_an_engine_that_is_not_installed_is_asked_for(monkeypatch: pytest.Monkey
     monkeypatch.setattr(kinds_module, "find_spec", lambda _: None)
     with pytest.raises(MissingExtraError, match=r"the engine locus .*tagmetry\[bench\]"):
         chosen(["locus"])
-    assert not installed()
+    assert installed() == ()
 
 
 def test_names_are_different() -> None:

@@ -25,7 +25,7 @@ def bench(  # noqa: PLR0913 (each argument is an option)
     ] = None,
     threads: Annotated[
         int | None,
-        typer.Option(min=1, help="By default one; some cases with all there are as well."),
+        typer.Option(min=1, help="By default one, and some cases with all there are."),
     ] = None,
     family: Annotated[str, typer.Option(help="Family of the markers.")] = "tag36h11",
     real: Annotated[
@@ -52,7 +52,7 @@ def bench(  # noqa: PLR0913 (each argument is an option)
     former = load_results(compare) if compare is not None else None
     extent = _extent(quick=quick, full=full)
     works = _works(extent, case or [], images or [], family, real=real)
-    to_do = steps(works, _threads(threads))
+    to_do = steps(works, _threads(threads, extent))
     results: Results | None = None
     with closing(measured(to_do, _kinds(engine), family, PACES[extent])) as runs:
         for results in counted(runs, len(to_do), "bench"):
@@ -95,10 +95,12 @@ def _real() -> "list[Work]":
     return list(real_sets(Path(os.environ["TAGMETRY_DATA"])))
 
 
-def _threads(wanted: int | None) -> list[int]:
+def _threads(wanted: int | None, extent: "Extent") -> list[int]:
     import os
 
-    return [wanted] if wanted is not None else sorted({1, os.cpu_count() or 1})
+    if wanted is not None:
+        return [wanted]
+    return [1] if extent == "quick" else sorted({1, os.cpu_count() or 1})
 
 
 def _kinds(names: list[str] | None) -> "tuple[EngineKind, ...]":

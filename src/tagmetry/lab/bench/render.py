@@ -25,7 +25,7 @@ from tagmetry.twin.scenes import Still, marker_thing
 SIZE_M = 0.1
 _BLACK, _WHITE, _BACKGROUND = 0.12, 0.82, 0.45  # radiance, of full scale
 _MOST_TILT_DEG = 35.0
-_SWING_PX, _SWING_DEG = 12.0, 6.0
+_SWING_PX, _SWING_DEG = 6.0, 3.0  # of 12 images: 3 px an image, and 1.6 px off a straight path
 _ROUNDING_GREY = 1 / np.sqrt(12)
 _HERE = Still(RigidTransform.identity())
 

@@ -21,7 +21,8 @@ class Pace:
     """How long to measure.
 
     Attributes:
-        least_rounds: At least so many rounds, and each image once, however long they take.
+        least_rounds: At least so many, however long they take; of pictures that make no film,
+            each once.
         most_rounds: At most so many.
         limit_s: After this time of its own an engine has been measured enough on a case.
         timeout_s: An engine that is silent for so long on one image is ended.
@@ -34,7 +35,7 @@ class Pace:
 
 
 PACES: dict[Extent, Pace] = {
-    "quick": Pace(least_rounds=2, most_rounds=10, limit_s=0.25),
+    "quick": Pace(least_rounds=2, most_rounds=24, limit_s=0.25),
     "default": Pace(least_rounds=3, most_rounds=50, limit_s=0.6),
     "full": Pace(least_rounds=10, most_rounds=300, limit_s=5.0),
 }
@@ -64,7 +65,7 @@ def raced(case: Case, children: Sequence[Child], threads: int, pace: Pace) -> li
     courses = {child: Course(child.kind, failure=child.show(case.images)) for child in children}
     for child, course in courses.items():
         _warm(child, course, case)
-    least = max(pace.least_rounds, len(case.images))
+    least = max(pace.least_rounds, 0 if case.moves else len(case.images))
     for number in range(max(pace.most_rounds, least)):
         running = [child for child in children if _goes_on(courses[child], least, pace.limit_s)]
         if not running:

@@ -49,7 +49,7 @@ SETUPS = (
     Setup("count-24", extent="quick", all_threads=True),
     Setup("noise-8", noise=8.0, extent="default"),
     Setup("gamma-60", exponent=2.2, extent="default"),
-    Setup("film-24", images=8, extent="quick", all_threads=True),
+    Setup("film-24", images=12, extent="quick", all_threads=True),
     Setup("none", count=0, extent="default"),
     Setup("plain", cluttered=False, extent="default"),
     Setup("side-12", side_px=12.0, extent="full"),
@@ -73,6 +73,6 @@ SETUPS = (
     Setup("size-480p", count=6, size_px=(640, 480), extent="default"),
     Setup("size-720p", count=6, size_px=(1280, 720)),
     Setup("size-4k", size_px=(3840, 2160), all_threads=True),
-    Setup("film-96", count=96, side_px=36.0, images=8),
-    Setup("film-360", count=360, side_px=36.0, images=8, all_threads=True),
+    Setup("film-96", count=96, side_px=36.0, images=12),
+    Setup("film-360", count=360, side_px=36.0, images=12, all_threads=True),
 )

@@ -69,6 +69,4 @@ def chosen(names: Sequence[str]) -> tuple[EngineKind, ...]:
 
 
 def _is_here(kind: EngineKind) -> bool:
-    if kind.tracks and find_spec("tagmetry.detect.track") is None:
-        return False
     return find_spec(kind.needs) is not None
