@@ -5,7 +5,7 @@ import numpy as np
 from tagmetry.detect.photometric.corners import place_of_cells
 from tagmetry.detect.photometric.ink import QUIET_CELLS
 from tagmetry.detect.photometric.kernel import kernel
-from tagmetry.detect.photometric.model import BLUR, levels_of
+from tagmetry.detect.photometric.model import BLACK, BLUR, EXPONENT
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 
@@ -39,10 +39,11 @@ def _whiteness(
     grey: GreyPixels, fit: Array, frame: Array, lens: Array, u: float, v: float
 ) -> float:
     """Return how white the pixel at a cell coordinate is; 1, as paper, outside the image."""
-    x, y, _ = place_of_cells(fit, lens, u, v, 0.0, 0.0)
+    x, y = place_of_cells(fit, lens, u, v)
     x, y = frame[0] + frame[2] * x, frame[1] + frame[2] * y
     if not (0 <= x < grey.shape[1] - 0.5 and 0 <= y < grey.shape[0] - 0.5):
         return 1.0
-    exponent, black, paper, _, _ = levels_of(fit)
+    exponent = np.exp(fit[EXPONENT])
+    black, paper = fit[BLACK] ** exponent, fit[BLACK + 1] ** exponent
     light = (grey[int(y + 0.5), int(x + 0.5)] / 255.0) ** exponent
     return float(min(max((light - black) / (paper - black), -0.5), 1.5))

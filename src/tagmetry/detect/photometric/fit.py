@@ -2,106 +2,114 @@
 
 import numpy as np
 
-from tagmetry.detect.photometric.ink import MOST_EDGES
-from tagmetry.detect.photometric.kernel import kernel
-from tagmetry.detect.photometric.model import (
-    BLACK,
-    BLUR,
-    COUNT,
-    EXPONENT,
-    SLOPES,
-    levels_of,
-    value_at,
-)
+from tagmetry.detect.photometric import block as row
+from tagmetry.detect.photometric.evaluate import evaluate
+from tagmetry.detect.photometric.kernel import kernel, step
+from tagmetry.detect.photometric.model import BLACK, BLUR, EXPONENT, SLOPES, cell_px
+from tagmetry.detect.photometric.normal import add_products, factor, solve
+from tagmetry.detect.photometric.view import View
 from tagmetry.geometry import Array
 
-_FAR = 4.0  # residuals beyond so many deviations count less
-_LEAST_NOISE = 0.3  # grey values: that of rounding
-_COARSE = 250  # pixels in the first rounds
+LEAST_NOISE = 0.3  # grey values: that of rounding
 _PRIOR_EXPONENT = 0.7  # of its logarithm
 _PRIOR_BLUR = 1.0  # of its variances, as a share
 _PRIOR_SLOPE = 0.3  # of light, across half a diagonal
 _MOST_MOVE_PX = 1.5
-_SETTLED_PX = 0.01
-_NEARLY_PX = 0.1  # is settled for the first stages
-_FIRST_NOISE = 20.0
-_MOST_ROUNDS = 6  # of a stage
-_FULL = 255.0
+_MOST_ROUNDS = 6
 _OF_WEIGHTS = 1.228  # (E w / E (w r)')^2 of Cauchy's weights on Gaussian noise
 EXPONENTS = (-0.7, 1.4)  # of their logarithm
 _BLUR_PX2 = (0.1, 16.0)
 
 
 @kernel
-def _normal(
-    fit: Array, ink: Array, pixels: Array, every: int, noise: float, count: int
-) -> tuple[Array, Array, float, Array]:
-    """Return J'WJ, J'Wr, the variance of the residuals, and their sizes.
+def fit_pixels(
+    view: View,
+    fit: Array,
+    pixel_count: int,
+    edges: int,
+    count: int,
+    settled_px: float,
+    noise: float,
+) -> tuple[float, float, Array, Array]:
+    """Improve the first `count` numbers of a fit until a round moves the picture little.
 
-    Weights are Cauchy's. The variance is that of pixels where the picture has edges: there it holds
-    what the model does not describe, and it is what moves the fit.
+    Args:
+        view: Whose pixels have been gathered, and their windows set.
+        fit: First guess, changed, shape (23,).
+        pixel_count: How many pixels there are.
+        edges: How many edges of each direction a pixel sees.
+        count: How many numbers to fit: 10, place and levels; 18, all but bows; 23.
+        settled_px: What little is.
+        noise: First guess, grey values.
+
+    Returns:
+        The noise; how far the picture moved in the last round (px), infinite where there is no
+        solution; the factor of the normal matrix and its scale, see `factor`.
     """
-    edges, J = np.zeros((4, MOST_EDGES + 1)), np.zeros(COUNT)
-    N, g = np.zeros((count, count)), np.zeros(count)
-    residuals = np.zeros((len(pixels) + every - 1) // every)
-    squares, edges2, levels = 0.0, 1e-12, levels_of(fit)
-    for k in range(len(residuals)):
-        x, y, seen = pixels[k * every]
-        model = value_at(fit, levels, ink, x, y, edges, J)
-        r = seen - model
-        residuals[k] = abs(r)
-        if seen >= _FULL and model > _FULL:
-            continue  # clipped: it says no more than that
-        w = 1.0 / (1.0 + (r / (_FAR * noise)) ** 2)
-        slope2 = J[2] * J[2] + J[5] * J[5]
-        squares += w * w * slope2 * r * r
-        edges2 += w * slope2
-        for a in range(count):
-            wj = w * J[a]
-            g[a] += wj * r
-            for b in range(a + 1):
-                N[a, b] += wj * J[b]
-    return N, g, _OF_WEIGHTS * squares / edges2, residuals
+    L, scale = np.zeros((count, count)), np.ones(count)
+    moved_px = np.inf
+    for _ in range(_MOST_ROUNDS):
+        sums, sizes = _summed(view, fit, pixel_count, edges, noise, count)
+        noise = max(np.median(sizes) / 0.6745, LEAST_NOISE)
+        N, g = sums[1 : count + 1, 1 : count + 1], sums[1 : count + 1, 0].copy()
+        if count > SLOPES:
+            _add_priors(N, g, fit, noise)
+        if not factor(N, L, scale):
+            return noise, np.inf, L, scale
+        step = solve(L, scale, g)
+        moved_px = _shorten(fit, step, view.frame[2])
+        fit[:count] += step
+        _limited(fit, view.frame[2])
+        if moved_px < settled_px:
+            break
+    return noise, moved_px, L, scale
+
+
+@step
+def _summed(
+    view: View, fit: Array, pixel_count: int, edges: int, noise: float, count: int
+) -> tuple[Array, Array]:
+    """Return the sums of products, and the sizes of residuals."""
+    room = view.room
+    sums, sizes = np.zeros((row.MOST_NUMBERS, row.MOST_NUMBERS)), np.empty(pixel_count)
+    for first in range(0, pixel_count, row.BLOCK):
+        _read(room, view.pixels, first, edges)
+        evaluate(room, fit, edges, noise, count)
+        add_products(room, sums, count)
+        for p in range(min(row.BLOCK, pixel_count - first)):
+            sizes[first + p] = room[row.SIZE + p]
+    return sums, sizes
+
+
+@step
+def _read(room: Array, pixels: Array, first: int, edges: int) -> None:
+    """Write what is known of a block's pixels into the room."""
+    pixel = pixels[first // row.BLOCK]
+    for k in range(row.CHANGES + (edges + 1) ** 2 * row.BLOCK):
+        room[k] = pixel[k]
 
 
 @kernel
-def _factor(N: Array, L: Array, scale: Array) -> bool:
-    """Write the Cholesky factor of N scaled to a unit diagonal; False where it has none."""
-    n = len(scale)
-    for a in range(n):
-        scale[a] = 1.0 / np.sqrt(max(N[a, a], 1e-300))
-    for a in range(n):
-        for b in range(a + 1):
-            s = N[a, b] * scale[a] * scale[b] + (1e-10 if a == b else 0.0)
-            for c in range(b):
-                s -= L[a, c] * L[b, c]
-            if a > b:
-                L[a, b] = s / L[b, b]
-            elif s <= 0.0:
-                return False
-            else:
-                L[a, a] = np.sqrt(s)
-    return True
+def variance_beside_edges(
+    view: View, fit: Array, pixel_count: int, edges: int, noise: float
+) -> float:
+    """Return the variance of residuals where the picture has edges; arguments as above.
+
+    There it holds what the model does not describe too, and it is what moves the fit.
+    """
+    room, squares, slopes2 = view.room, 0.0, 1e-12
+    across, downward = row.J + 2 * row.BLOCK, row.J + 5 * row.BLOCK  # by a shift of the picture
+    for first in range(0, pixel_count, row.BLOCK):
+        _read(room, view.pixels, first, edges)
+        evaluate(room, fit, edges, noise, SLOPES)
+        for p in range(row.BLOCK):
+            slope2 = room[across + p] ** 2 + room[downward + p] ** 2
+            squares += slope2 * room[row.RESIDUAL + p] ** 2
+            slopes2 += slope2
+    return max(_OF_WEIGHTS * squares / slopes2, LEAST_NOISE**2)
 
 
-@kernel
-def _solved(L: Array, scale: Array, g: Array) -> Array:
-    n = len(scale)
-    x = np.zeros(n)
-    for a in range(n):
-        s = g[a] * scale[a]
-        for c in range(a):
-            s -= L[a, c] * x[c]
-        x[a] = s / L[a, a]
-    for a in range(n - 1, -1, -1):
-        s = x[a]
-        for c in range(a + 1, n):
-            s -= L[c, a] * x[c]
-        x[a] = s / L[a, a]
-    return x * scale
-
-
-@kernel
+@step
 def _limited(fit: Array, half_px: float) -> None:
     """Keep levels, exponent and blur where the model means something."""
     for k in range(2):
@@ -114,29 +122,22 @@ def _limited(fit: Array, half_px: float) -> None:
     fit[BLUR + 1] = min(max(fit[BLUR + 1], -most), most)
 
 
-@kernel
-def _moved_px(fit: Array, step: Array, half_px: float) -> float:
-    """Return about how far a step moves the marker's picture."""
-    cell_px = half_px / np.sqrt(abs(fit[0] * fit[4] - fit[1] * fit[3]))
-    across = abs(step[0]) + abs(step[1]) + abs(step[2])
-    down = abs(step[3]) + abs(step[4]) + abs(step[5])
-    return float(cell_px * max(across, down))
-
-
-@kernel
+@step
 def _shorten(fit: Array, step: Array, half_px: float) -> float:
     """Keep a step where the model may be taken as linear; return how far it moves the picture."""
-    moved_px = _moved_px(fit, step, half_px)
+    across = abs(step[0]) + abs(step[1]) + abs(step[2])
+    down = abs(step[3]) + abs(step[4]) + abs(step[5])
+    moved_px = cell_px(fit, half_px) * max(across, down)
     step[:8] /= max(1.0, moved_px / _MOST_MOVE_PX)
     if len(step) > BLUR:
         step[EXPONENT] = min(max(step[EXPONENT], -0.4), 0.4)
         most = 0.5 * (fit[BLUR] + fit[BLUR + 2])
         largest = max(abs(step[BLUR]), abs(step[BLUR + 1]), abs(step[BLUR + 2]))
         step[BLUR : BLUR + 3] /= max(1.0, 2 * largest / most)
-    return moved_px
+    return float(moved_px)
 
 
-@kernel
+@step
 def _add_priors(N: Array, g: Array, fit: Array, noise: float) -> None:
     """Add what is known beforehand: exponents near 1, blur alike in all directions, even light."""
     exponent = (noise / _PRIOR_EXPONENT) ** 2
@@ -151,59 +152,3 @@ def _add_priors(N: Array, g: Array, fit: Array, noise: float) -> None:
     for k in range(SLOPES, EXPONENT):
         N[k, k] += light
         g[k] -= light * fit[k]
-
-
-@kernel
-def fit_pixels(
-    start: Array, ink: Array, pixels: Array, half_px: float, most: int
-) -> tuple[Array, Array, float, float]:
-    """Return the numbers that explain the pixels best.
-
-    Place and levels come first, from few pixels; then everything; then from all pixels.
-
-    Args:
-        start: First guess, shape (23,).
-        ink: From `printed`.
-        pixels: Place x, y and grey value, shape (n, 3).
-        half_px: Half diagonal of the marker, pixels.
-        most: How many numbers to fit: 23, or 18 without bows.
-
-    Returns:
-        The fit, shape (23,), its covariance, shape (most, most), the noise (grey values) and how
-        far the picture moved in the last round (px), infinite where there is no solution.
-    """
-    fit, covariance = start.copy(), np.zeros((most, most))
-    every = max(1, len(pixels) // _COARSE)
-    noise = _FIRST_NOISE
-    for stage in range(3):
-        count = SLOPES if stage == 0 else most
-        stride = 1 if stage == 2 else every
-        for _ in range(_MOST_ROUNDS):
-            N, g, variance, residuals = _normal(fit, ink, pixels, stride, noise, count)
-            noise = max(np.median(residuals) / 0.6745, _LEAST_NOISE)
-            if stage > 0:
-                _add_priors(N, g, fit, noise)
-            L, scale = np.zeros((count, count)), np.ones(count)
-            if not _factor(N, L, scale):
-                return fit, covariance, noise, np.inf
-            step = _solved(L, scale, g)
-            moved_px = _shorten(fit, step, half_px)
-            fit[:count] += step
-            _limited(fit, half_px)
-            if moved_px < (_SETTLED_PX if stage == 2 else _NEARLY_PX):
-                break
-    variance = max(variance, _LEAST_NOISE**2) * len(pixels) / max(len(pixels) - most, 1)
-    return fit, variance * _inverse(L, scale), noise, moved_px
-
-
-@kernel
-def _inverse(L: Array, scale: Array) -> Array:
-    """Return the inverse of the matrix that has been factored."""
-    n = len(scale)
-    inverse = np.empty((n, n))
-    unit = np.zeros(n)
-    for k in range(n):
-        unit[:] = 0.0
-        unit[k] = 1.0
-        inverse[:, k] = _solved(L, scale, unit)
-    return inverse

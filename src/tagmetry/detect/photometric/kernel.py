@@ -2,9 +2,10 @@
 
 from numba import njit
 
-kernel = njit(
-    cache=True,
-    nogil=True,
-    error_model="numpy",
-    fastmath={"contract", "reassoc", "arcp", "nsz"},
-)
+_FLAGS = {"contract", "reassoc", "arcp", "nsz"}
+
+kernel = njit(cache=True, nogil=True, error_model="numpy", fastmath=_FLAGS)
+
+# A step of a page, written into its caller before that is compiled. Every kernel that calls another
+# compiles that one's code again, so that pages that call pages would take minutes.
+step = njit(inline="always", nogil=True, error_model="numpy", fastmath=_FLAGS)

@@ -1,91 +1,179 @@
-"""One marker: from first corners to a fit, from there to better corners with their covariance."""
+"""Markers, one after the other: from first numbers to a fit, from there to corners, covariance.
+
+coarse: some pixels beside where edges are thought to be; place and levels, then everything
+fine: all pixels beside where edges are by now; everything, and bows
+"""
 
 import numpy as np
 
+from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.behind import reaches_edges, with_surround
-from tagmetry.detect.photometric.corners import corners_of_fit
-from tagmetry.detect.photometric.fit import fit_pixels
-from tagmetry.detect.photometric.kernel import kernel
-from tagmetry.detect.photometric.model import BLACK, BLUR, BOWS, COUNT, cells_at
-from tagmetry.detect.photometric.pixels import gather
-from tagmetry.detect.photometric.straight import straight_place
-from tagmetry.geometry import Array, square_to_quad
-from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.detect.photometric.corners import write_corners
+from tagmetry.detect.photometric.fit import fit_pixels, variance_beside_edges
+from tagmetry.detect.photometric.ink import changes
+from tagmetry.detect.photometric.kernel import kernel, step
+from tagmetry.detect.photometric.model import (
+    BLACK,
+    BLUR,
+    BOWS,
+    COUNT,
+    SLOPES,
+    blur_in_cells,
+    cells_at,
+)
+from tagmetry.detect.photometric.normal import inverse_seen
+from tagmetry.detect.photometric.pixels import MOST_BLOCKS, gather, set_windows
+from tagmetry.detect.photometric.view import View
+from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
+Factor = tuple[Array, Array]  # of a normal matrix, and its scale
+JOINT = 8 + COUNT - BOWS  # coordinates of corners, and bows
 _FIRST_BLUR_PX = 0.9
+_FIRST_NOISE = 20.0
 _LEAST_PIXELS = 60
+_COARSE_PIXELS, _FINE_PIXELS = 250, 1600
+_COARSE_BESIDE_PX, _BESIDE_PX = 1.5, 0.9  # farther pixels say little of an edge
+_COARSE_SPARE_PX, _SPARE_PX = 1.0, 0.2  # that a first guess may be wrong by
+_NEARLY_PX, _SETTLED_PX = 0.1, 0.05  # a round that moves the picture less was the last
+_SIGHT = 6.0  # blurs, both sides of a pixel together
 
 
-def frame_of(corners_px: Array) -> Array:
-    """Return the middle x, y and the half diagonal of a marker, pixels, shape (3,)."""
-    middle = corners_px.mean(axis=0)
-    return np.append(middle, np.linalg.norm(corners_px - middle, axis=1).mean())
-
-
-def first_fit(corners: Array, lens: Array, square: tuple[float, float], half_px: float) -> Array:
-    """Return the numbers of the model with the homography of first corners.
+@kernel
+def fit_markers(
+    grey: GreyPixels,
+    inks: Array,
+    sizes: IntArray,
+    starts: Array,
+    frames: Array,
+    lenses: Array,
+    squares: Array,
+    bows: BoolArray,
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Fit n markers' pictures.
 
     Args:
-        corners: In the marker's frame, shape (4, 2).
-        lens: See `straight_place`.
-        square: First and last cell coordinate of the square.
-        half_px: Half diagonal, pixels.
+        grey: The image.
+        inks: Cells of all pictures, row by row, one picture after the other, 1 is white.
+        sizes: Cells along a side of each, shape (n,).
+        starts: From `first_fits`, shape (n, 23).
+        frames: Middle x, y and half diagonal, pixels, shape (n, 3).
+        lenses: See `lenses_around`.
+        squares: First and last cell coordinate of the squares, shape (n, 2).
+        bows: Whether to fit bows, shape (n,).
+
+    Returns:
+        The fits (n, 23); corners (n, 4, 2) and the covariances of corners and bows (n, 13, 13), in
+        units of the half diagonal, from the middle; noise (grey values, shape (n,)); how far the
+        picture moved in the last round (px, shape (n,)), infinite where the fit failed.
     """
-    straight = np.array([straight_place(x, y, lens) for x, y in corners])
-    low, high = square
-    cells = np.array([[high - low, 0.0, low], [0.0, high - low, low], [0.0, 0.0, 1.0]])
-    G = cells @ np.linalg.inv(square_to_quad(straight))
-    fit = np.zeros(COUNT)
-    fit[:8] = (G / G[2, 2]).ravel()[:8]
-    fit[BLUR] = fit[BLUR + 2] = (_FIRST_BLUR_PX / half_px) ** 2
-    return fit
+    count, first_cell = len(sizes), 0
+    fits, places, joints = starts.copy(), np.zeros((count, 4, 2)), np.zeros((count, JOINT, JOINT))
+    noises, moves_px = np.zeros(count), np.zeros(count)
+    room, pixels = row.new_room(), np.zeros((MOST_BLOCKS, row.READ))
+    for k in range(count):
+        ink = inks[first_cell : first_cell + sizes[k] ** 2].reshape(sizes[k], sizes[k])
+        first_cell += sizes[k] ** 2
+        view = View(grey, frames[k], lenses[k], room, pixels)
+        square = (squares[k, 0], squares[k, 1])
+        noises[k], moves_px[k] = fit_marker(
+            view, ink, fits[k], square, bows[k], places[k], joints[k]
+        )
+    return fits, places, joints, noises, moves_px
 
 
-@kernel
-def _levels(start: Array, ink: Array, pixels: Array) -> tuple[float, float]:
-    """Return the mean values of pixels on black and on white cells, as a share of 255."""
-    sums, counts = np.zeros(2), np.full(2, 1e-9)
-    for x, y, seen in pixels:
-        u, v, _ = cells_at(start, x, y)
-        white = int(ink[int(v), int(u)])
-        sums[white] += seen
-        counts[white] += 1.0
-    levels = np.maximum(sums / counts, 1.0) / 255.0
-    return levels[0], levels[1]
-
-
-@kernel
+@step
 def fit_marker(
-    grey: GreyPixels,
+    view: View,
     ink: Array,
-    start: Array,
-    corners: Array,
-    frame: Array,
-    lens: Array,
+    fit: Array,
     square: tuple[float, float],
     bows: bool,
-) -> tuple[Array, Array, Array, float, float]:
-    """Return the fit, the corners (4, 2) and the covariance of corners and bows (13, 13).
-
-    Both in units of the half diagonal, from the middle. After them the noise (grey values), and how
-    far the picture moved in the last round (px), infinite where the fit failed.
-    """
-    failed = np.zeros((13, 13))
-    pixels = gather(grey, ink, start, corners, frame, lens, square[1] - square[0])
-    if len(pixels) < _LEAST_PIXELS:
-        return start, corners, failed, 0.0, np.inf
-    start = start.copy()
-    start[BLACK], start[BLACK + 1] = _levels(start, ink, pixels)
-    most = COUNT if bows else BOWS
-    fit, covariance, noise, moved_px = fit_pixels(start, ink, pixels, frame[2], most)
-    if np.isfinite(moved_px) and reaches_edges(fit):
-        surrounded = with_surround(grey, ink, fit, frame, lens)
-        fit, covariance, noise, moved_px = fit_pixels(fit, surrounded, pixels, frame[2], most)
+    places: Array,
+    joint: Array,
+) -> tuple[float, float]:
+    """Write the fit, corners and covariance of one marker; return noise and the last move."""
+    noise, moved_px = _fit_coarsely(view, ink, fit)
     if not np.isfinite(moved_px):
-        return fit, corners, failed, noise, moved_px
-    places, by_fit = corners_of_fit(fit, lens, square, corners, most)
-    joint = np.zeros((13, most))
-    joint[:8] = by_fit
-    for k in range(BOWS, most):
-        joint[8 + k - BOWS, k] = 1.0
-    return fit, places, joint @ covariance @ joint.T, noise, moved_px
+        return noise, np.inf
+    if reaches_edges(fit):
+        ink = with_surround(view.grey, ink, fit, view.frame, view.lens)
+    numbers = COUNT if bows else BOWS
+    noise, moved_px, covariance = _fit_finely(view, ink, fit, noise, numbers)
+    if np.isfinite(moved_px):
+        _write_corners(view, fit, square, covariance, places, joint)
+    return noise, moved_px
+
+
+@step
+def _fit_coarsely(view: View, ink: Array, fit: Array) -> tuple[float, float]:
+    """Improve a fit by some of the pixels; return the noise and how far the picture moved last."""
+    fit[BLUR] = fit[BLUR + 2] = (_FIRST_BLUR_PX / view.frame[2]) ** 2
+    count = gather(view, ink, fit, _COARSE_BESIDE_PX, _COARSE_PIXELS)
+    if count < _LEAST_PIXELS:
+        return 0.0, np.inf
+    _set_levels(fit, ink, view.pixels, count)
+    edges = _with_windows(view, ink, fit, count, _COARSE_SPARE_PX)
+    noise, moved_px = _FIRST_NOISE, np.inf
+    for numbers in (SLOPES, BOWS):
+        noise, moved_px, _, _ = fit_pixels(view, fit, count, edges, numbers, _NEARLY_PX, noise)
+    return noise, moved_px
+
+
+@step
+def _fit_finely(
+    view: View, ink: Array, fit: Array, noise: float, numbers: int
+) -> tuple[float, float, Factor]:
+    """Improve a fit by all of the pixels; return as above, and the covariance's factor."""
+    count = gather(view, ink, fit, _BESIDE_PX, _FINE_PIXELS)
+    edges = _with_windows(view, ink, fit, count, _SPARE_PX)
+    noise, moved_px, L, scale = fit_pixels(view, fit, count, edges, numbers, _SETTLED_PX, noise)
+    variance = variance_beside_edges(view, fit, count, edges, noise)
+    variance *= count / max(count - numbers, 1)
+    return noise, moved_px if count >= _LEAST_PIXELS else np.inf, (L, np.sqrt(variance) * scale)
+
+
+@step
+def _write_corners(
+    view: View,
+    fit: Array,
+    square: tuple[float, float],
+    covariance: Factor,
+    places: Array,
+    joint: Array,
+) -> None:
+    """Write the corners, and the covariance of them and the bows."""
+    L, scale = covariance
+    numbers = len(scale)
+    by_fit = np.zeros((JOINT, numbers))
+    write_corners(fit, view.lens, square, places, by_fit)
+    for k in range(BOWS, numbers):
+        by_fit[8 + k - BOWS, k] = 1.0
+    joint[:] = inverse_seen(L, scale, by_fit)
+
+
+@step
+def _with_windows(view: View, ink: Array, fit: Array, count: int, spare_px: float) -> int:
+    """Write what part of the picture every pixel sees; return how many edges of each direction.
+
+    A pixel may be `spare_px` from where the fit has it.
+    """
+    blur, fineness = blur_in_cells(fit)
+    edges = int(np.ceil(_SIGHT * blur + 2 * spare_px * fineness / view.frame[2]))
+    edges = min(max(edges, 1), row.MOST_EDGES, len(ink) - 1)
+    set_windows(view, fit, count, changes(ink), edges)
+    return edges
+
+
+@step
+def _set_levels(fit: Array, ink: Array, pixels: Array, count: int) -> None:
+    """Set the values of black and white to the means of pixels on such cells."""
+    sums, counts = np.zeros(2), np.full(2, 1e-9)
+    for k in range(count):
+        pixel, p = pixels[k // row.BLOCK], k % row.BLOCK
+        u, v, _ = cells_at(fit, pixel[row.X + p], pixel[row.Y + p])
+        white = int(ink[int(v), int(u)])
+        sums[white] += pixel[row.SEEN + p]
+        counts[white] += 1.0
+    fit[BLACK] = max(sums[0] / counts[0], 1.0) / 255.0
+    fit[BLACK + 1] = max(sums[1] / counts[1], 1.0) / 255.0

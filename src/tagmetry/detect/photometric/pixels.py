@@ -2,109 +2,179 @@
 
 import numpy as np
 
-from tagmetry.detect.photometric.ink import QUIET_CELLS
+from tagmetry.detect.photometric import block as row
+from tagmetry.detect.photometric.evaluate import write_cells
+from tagmetry.detect.photometric.ink import QUIET_CELLS, first_edge
 from tagmetry.detect.photometric.kernel import kernel
-from tagmetry.detect.photometric.model import cells_at
-from tagmetry.detect.photometric.straight import straight_place
+from tagmetry.detect.photometric.model import cell_px
+from tagmetry.detect.photometric.sight import columns_in_sight, rows_in_sight, trusted_cells
+from tagmetry.detect.photometric.straight import straighten
+from tagmetry.detect.photometric.view import View
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.geometry.arrays import IntArray
 
-MOST_PIXELS = 1800
-_BESIDE_PX = 0.9  # an edge is seen by pixels this near
-_FLAT = 9  # one of so many flat pixels is taken
-_REACH_PX = (0.3, 3.0)  # how far outside pixels are looked at: in cells at least, pixels at most
-_CLEAR_PX = 1.5  # this much of the quiet zone may be blurred by what lies behind it
-
-
-@kernel
-def _near_edge(ink: Array, u: float, v: float, reach_u: float, reach_v: float) -> bool:
-    """Say whether an edge of the picture lies within reach of a place."""
-    rows, columns = ink.shape
-    row, column = int(v), int(u)
-    right, low = int(np.rint(u)), int(np.rint(v))
-    near_u = 0 < right < columns and abs(u - right) < reach_u
-    near_v = 0 < low < rows and abs(v - low) < reach_v
-    if near_u and ink[row, right - 1] != ink[row, right]:
-        return True
-    if near_v and ink[low - 1, column] != ink[low, column]:
-        return True
-    if not (near_u and near_v):
-        return False
-    first = ink[low - 1, right - 1]
-    return bool(
-        ink[low - 1, right] != first or ink[low, right - 1] != first or ink[low, right] != first
-    )
+MOST_BLOCKS = 48
+_MOST_PIXELS = (MOST_BLOCKS - 1) * row.BLOCK
+_FLAT = 16  # one of so many flat pixels is taken; a bit that is no edge's
+_GOLDEN = 0.618
 
 
 @kernel
-def _in_sight(u: float, cell_px: float, cells: int) -> bool:
-    """Say whether a place lies on the picture, or where its quiet zone may be trusted."""
-    trusted_px = min(max(cell_px - _CLEAR_PX, _REACH_PX[0] * cell_px), _REACH_PX[1])
-    outside = max(QUIET_CELLS - u, u - (cells - QUIET_CELLS))
-    return outside * cell_px < trusted_px
-
-
-@kernel
-def _box(
-    corners: Array, frame: Array, ink: Array, side_cells: float, width: int, height: int
-) -> tuple[int, int, int, int]:
-    """Return the first and last column and row of the image that the picture may reach."""
-    wider = frame[2] * (ink.shape[0] - 2) / side_cells
-    left, right = np.min(corners[:, 0]) * wider, np.max(corners[:, 0]) * wider
-    top, bottom = np.min(corners[:, 1]) * wider, np.max(corners[:, 1]) * wider
-    return (
-        max(int(frame[0] + left), 0),
-        min(int(frame[0] + right) + 1, width - 1),
-        max(int(frame[1] + top), 0),
-        min(int(frame[1] + bottom) + 1, height - 1),
-    )
-
-
-@kernel
-def gather(
-    grey: GreyPixels,
-    ink: Array,
-    fit: Array,
-    corners: Array,
-    frame: Array,
-    lens: Array,
-    side_cells: float,
-) -> Array:
-    """Return the chosen pixels: place x, y and grey value, shape (n, 3).
+def gather(view: View, ink: Array, fit: Array, beside_px: float, wanted: int) -> int:
+    """Write place and grey value of the chosen pixels; return how many they are.
 
     Args:
-        grey: The image.
+        view: Its pixels are written.
         ink: From `printed`.
         fit: First guess.
-        corners: Of the square, first guess, in the marker's frame, shape (4, 2).
-        frame: Middle x, y and half diagonal of the marker, pixels.
-        lens: See `straight_place`.
-        side_cells: Cells along a side of the square.
+        beside_px: An edge is seen by pixels this near.
+        wanted: About how many pixels to choose at most.
     """
-    middle_x, middle_y, half_px = frame
-    height, width = grey.shape
-    left, right, top, bottom = _box(corners, frame, ink, side_cells, width, height)
-    room = max((right - left + 1) * (bottom - top + 1), 0)
-    chosen = np.empty((room, 3))
-    count = 0
-    cells = ink.shape[0]
-    for row in range(top, bottom + 1):
-        for column in range(left, right + 1):
-            x, y = straight_place((column - middle_x) / half_px, (row - middle_y) / half_px, lens)
-            u, v, down = cells_at(fit, x, y)
-            if not (down > 0.05 and 1 < u < cells - 1 and 1 < v < cells - 1):
-                continue
-            ux, uy = (fit[0] - u * fit[6]) / down, (fit[1] - u * fit[7]) / down
-            vx, vy = (fit[3] - v * fit[6]) / down, (fit[4] - v * fit[7]) / down
-            cell_u_px = half_px / np.sqrt(ux * ux + uy * uy)
-            cell_v_px = half_px / np.sqrt(vx * vx + vy * vy)
-            if not (_in_sight(u, cell_u_px, cells) and _in_sight(v, cell_v_px, cells)):
-                continue
-            reach_u, reach_v = _BESIDE_PX / cell_u_px, _BESIDE_PX / cell_v_px
-            if _near_edge(ink, u, v, reach_u, reach_v) or (column + 3 * row) % _FLAT == 0:
-                chosen[count, 0], chosen[count, 1], chosen[count, 2] = x, y, grey[row, column]
-                count += 1
-    kept = min(count, MOST_PIXELS)
-    for k in range(kept):
-        chosen[k] = chosen[k * count // kept]
-    return chosen[:kept].copy()
+    grey, frame, lens, room, _ = view
+    cells, edges = len(ink), _edges_at_corners(ink)
+    every = max(1, int(np.ceil(_beside_edges(ink, fit, frame[2], beside_px) / wanted)))
+    first_row, last_row = rows_in_sight(fit, frame, cells, grey.shape[0], lens)
+    count, lane, turn = 0, 0, 0
+    for image_row in range(first_row, last_row + 1):
+        left, right = columns_in_sight(fit, frame, cells, grey.shape[1], lens, image_row)
+        left += int(every * ((image_row * _GOLDEN) % 1.0))
+        for column in range(left, right + 1, every):
+            room[row.X + lane] = (column - frame[0]) / frame[2]
+            room[row.Y + lane] = (image_row - frame[1]) / frame[2]
+            room[row.SEEN + lane] = grey[image_row, column]
+            lane += 1
+            if lane == row.BLOCK:
+                count = _chosen(view, fit, cells, edges, beside_px, turn, lane, count)
+                lane, turn = 0, turn + 5
+    return _chosen(view, fit, cells, edges, beside_px, turn, lane, count)
+
+
+@kernel
+def _chosen(
+    view: View,
+    fit: Array,
+    cells: int,
+    edges: IntArray,
+    beside_px: float,
+    turn: int,
+    lanes: int,
+    count: int,
+) -> int:
+    """Append those pixels of the room that tell; return how many there are now."""
+    room, half_px = view.room, view.frame[2]
+    _look(room, view.lens, fit, cells, beside_px / half_px, turn)
+    _overlook(room, cells, half_px)
+    return _keep(room, lanes, edges, view.pixels, count)
+
+
+@kernel
+def _beside_edges(ink: Array, fit: Array, half_px: float, beside_px: float) -> float:
+    """Return about how many pixels lie beside edges of the picture."""
+    edges = 0.0
+    for j in range(1, len(ink)):
+        for i in range(1, len(ink)):
+            edges += abs(ink[j, i] - ink[j - 1, i]) + abs(ink[j, i] - ink[j, i - 1])
+    return float(edges * cell_px(fit, half_px) * 2 * beside_px)
+
+
+@kernel
+def _edges_at_corners(ink: Array) -> IntArray:
+    """Return which edges meet at every corner of cells: 1 above, 2 below, 4 left, 8 right.
+
+    Corner of column i and row j, left of and above cell i, j, stands at i + m j, for ink (m, m).
+    """
+    cells = len(ink)
+    edges = np.full(cells * cells, _FLAT)
+    for j in range(1, cells):
+        for i in range(1, cells):
+            above = ink[j - 1, i - 1] != ink[j - 1, i]
+            below = ink[j, i - 1] != ink[j, i]
+            left = ink[j - 1, i - 1] != ink[j, i - 1]
+            right = ink[j - 1, i] != ink[j, i]
+            edges[i + cells * j] += 1 * above + 2 * below + 4 * left + 8 * right
+    return edges
+
+
+@kernel
+def _look(room: Array, lens: Array, fit: Array, cells: int, reach: float, turn: int) -> None:
+    """Write the nearest corner of cells to every pixel, and which edges there would count.
+
+    Args:
+        room: The block.
+        lens: See `straight_place`.
+        fit: The numbers.
+        cells: Along a side of the picture and its quiet zone.
+        reach: How near an edge a pixel sees it, half diagonals.
+        turn: Counts blocks, so that flat pixels are not taken from one column.
+    """
+    straighten(room, lens)
+    write_cells(room, fit)
+    for p in range(row.BLOCK):
+        u, v = room[row.U + p], room[row.V + p]
+        ux, uy, vx, vy = room[row.UX + p], room[row.UY + p], room[row.VX + p], room[row.VY + p]
+        corner_u = np.rint(u) if 1.0 <= u <= cells - 1 else 1.0
+        corner_v = np.rint(v) if 1.0 <= v <= cells - 1 else 1.0
+        past_u, past_v = u - corner_u, v - corner_v
+        near_u = abs(past_u) < reach * np.sqrt(ux * ux + uy * uy)
+        near_v = abs(past_v) < reach * np.sqrt(vx * vx + vy * vy)
+        meeting = (2.0 if past_v > 0 else 1.0) if near_u else 0.0
+        meeting += (8.0 if past_u > 0 else 4.0) if near_v else 0.0
+        meeting = 15.0 if near_u & near_v else meeting
+        meeting += _FLAT if (p + turn) & (_FLAT - 1) == 0 else 0.0
+        room[row.CORNER + p] = corner_u + cells * corner_v
+        room[row.MEETING + p] = meeting
+
+
+@kernel
+def _overlook(room: Array, cells: int, half_px: float) -> None:
+    """Strike out the edges of pixels that lie outside, where the quiet zone is not trusted."""
+    for p in range(row.BLOCK):
+        u, v, down = room[row.U + p], room[row.V + p], room[row.DOWN + p]
+        ux, uy, vx, vy = room[row.UX + p], room[row.UY + p], room[row.VX + p], room[row.VY + p]
+        trusted_u = trusted_cells(np.sqrt(ux * ux + uy * uy) / half_px)
+        trusted_v = trusted_cells(np.sqrt(vx * vx + vy * vy) / half_px)
+        outside_u = max(QUIET_CELLS - u, u - (cells - QUIET_CELLS))
+        outside_v = max(QUIET_CELLS - v, v - (cells - QUIET_CELLS))
+        seen = (outside_u < trusted_u) & (outside_v < trusted_v) & (down > 0.0) & (down < 20.0)
+        room[row.MEETING + p] *= 1.0 if seen else 0.0
+
+
+@kernel
+def _keep(room: Array, lanes: int, edges: IntArray, pixels: Array, count: int) -> int:
+    """Append the pixels of a block that tell; return how many there are now."""
+    for p in range(lanes):
+        block, at = pixels[count // row.BLOCK], count % row.BLOCK
+        block[row.X + at], block[row.Y + at] = room[row.X + p], room[row.Y + p]
+        block[row.SEEN + at] = room[row.SEEN + p]
+        here = edges[int(room[row.CORNER + p])]
+        count += 1 if (here & int(room[row.MEETING + p])) else 0
+    return min(count, _MOST_PIXELS)
+
+
+@kernel
+def set_windows(view: View, fit: Array, count: int, all_changes: Array, edges: int) -> None:
+    """Write what part of the picture every pixel sees.
+
+    Args:
+        view: Whose pixels have been gathered.
+        fit: The numbers.
+        count: How many pixels.
+        all_changes: From `changes`.
+        edges: How many edges of each direction a pixel sees.
+    """
+    room, cells = view.room, all_changes.shape[3]
+    for b in range(-(-count // row.BLOCK)):
+        pixel = view.pixels[b]
+        for k in range(row.COUNTS):
+            room[k] = pixel[k]
+        write_cells(room, fit)
+        for p in range(row.BLOCK):
+            pixel[row.COUNTS + p] = 1.0 if b * row.BLOCK + p < count else 0.0
+            first_u = first_edge(room[row.U + p], edges, cells)
+            first_v = first_edge(room[row.V + p], edges, cells)
+            pixel[row.FIRST_U + p], pixel[row.FIRST_V + p] = first_u, first_v
+            to = row.CHANGES + p
+            for j in range(edges + 1):
+                for i in range(edges + 1):
+                    pixel[to] = all_changes[min(j, 1), min(i, 1), first_v + j - 1, first_u + i - 1]
+                    to += row.BLOCK

@@ -21,17 +21,17 @@ from tagmetry.camera import Camera
 from tagmetry.detect.photometric.bows import believed
 from tagmetry.detect.photometric.fit import EXPONENTS
 from tagmetry.detect.photometric.ink import printed
-from tagmetry.detect.photometric.marker import first_fit, fit_marker, frame_of
+from tagmetry.detect.photometric.marker import fit_markers
 from tagmetry.detect.photometric.model import BLACK, BOWS, EXPONENT
-from tagmetry.detect.photometric.straight import NO_LENS, lens_around
+from tagmetry.detect.photometric.start import are_squares, first_fits, frames_of
+from tagmetry.detect.photometric.straight import lenses_around
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import BoolArray, GreyPixels
+from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
-_FLOOR_PX = 0.003  # what the model does not describe
+_FLOOR_PX = 0.001  # what the model does not describe
 _LOST_PX = (2.5, 0.05)  # a corner that moved farther was another's; at least, and of the diagonal
 _BOWING_HALF_PX = 21.0  # smaller markers cannot tell a bow from noise
 _SETTLED_PX = 0.05  # in the last round
-_LEAST_TURN_PX2 = 4.0
 _LEAST_CONTRAST = 4.0  # in noises
 _MOST_DEVIATION_PX = 1.5
 
@@ -77,6 +77,14 @@ class Fitted:
     covariances_px2: Array
     sound: BoolArray
 
+    def with_some(self, which: IntArray, others: "Fitted") -> "Fitted":
+        """Return these with those at `which` replaced, shape (m,)."""
+        corners, covariances = self.corners_px.copy(), self.covariances_px2.copy()
+        sound = self.sound.copy()
+        corners[which], covariances[which] = others.corners_px, others.covariances_px2
+        sound[which] = others.sound
+        return Fitted(corners, covariances, sound)
+
 
 def fit_pictures(
     grey: GreyPixels,
@@ -93,61 +101,62 @@ def fit_pictures(
         pictures: What is printed there, n of them.
         camera: Intrinsics, so that edges are followed along their curves.
     """
-    count = len(corners_px)
-    corners, joint = np.zeros((count, 4, 2)), np.tile(np.eye(13), (count, 1, 1))
-    frames, bows, sound = np.zeros((count, 3)), np.zeros((count, 5)), np.zeros(count, dtype=bool)
-    for i, (first_px, picture) in enumerate(zip(corners_px, pictures, strict=True)):
-        if not _is_square(first_px):
-            continue
-        frames[i] = frame_of(first_px)
-        bowing = camera is None and frames[i, 2] >= _BOWING_HALF_PX
-        fit, corners[i], joint[i], sound[i] = _fitted(
-            grey, first_px, picture, frames[i], camera, bowing
-        )
-        bows[i] = fit[BOWS:]
+    given_px = np.asarray(corners_px, dtype=np.float64).reshape(-1, 4, 2)
+    found = Fitted(given_px, np.tile(np.eye(8), (len(given_px), 1, 1)), are_squares(given_px))
+    if not found.sound.any():
+        return found
+    which = np.flatnonzero(found.sound)
+    fitted = _fitted(grey, given_px[which], [pictures[int(k)] for k in which], camera)
+    return found.with_some(which, fitted)
+
+
+def _fitted(
+    grey: GreyPixels, corners_px: Array, pictures: Sequence[Picture], camera: Camera | None
+) -> Fitted:
+    """Fit the pictures of markers whose first corners are squares."""
+    frames = frames_of(corners_px)
     half_px = frames[:, 2]
-    tells = sound & (np.einsum("nii->ni", joint)[:, 8:] > 0).all(axis=1)
-    covariances = joint[:, :8, :8].copy()
+    bowing = (half_px >= _BOWING_HALF_PX) & (camera is None)
+    fits, places, joints, noises, moves_px = _fit_all(
+        grey, corners_px, pictures, frames, camera, bowing
+    )
+    sound = _explains(fits, noises, moves_px)
+    covariances = joints[:, :8, :8].copy()
+    tells = sound & (np.einsum("nii->ni", joints)[:, 8:] > 0).all(axis=1)
     if tells.any():
-        corners[tells], covariances[tells] = believed(
-            corners[tells], joint[tells], half_px[tells], bows[tells]
+        places[tells], covariances[tells] = believed(
+            places[tells], joints[tells], half_px[tells], fits[tells, BOWS:]
         )
-    moved_px = frames[:, None, :2] + half_px[:, None, None] * corners
+    moved_px = frames[:, None, :2] + half_px[:, None, None] * places
     covariances_px2 = half_px[:, None, None] ** 2 * covariances + _FLOOR_PX**2 * np.eye(8)
     sound &= _plausible(moved_px, covariances_px2, corners_px, half_px)
     return Fitted(np.where(sound[:, None, None], moved_px, corners_px), covariances_px2, sound)
 
 
-def _is_square(corners_px: Array) -> bool:
-    """Say whether corners go clockwise around an area of some pixels, without a dent."""
-    along = np.roll(corners_px, -1, axis=0) - corners_px
-    after = np.roll(along, -1, axis=0)
-    turn = along[:, 0] * after[:, 1] - along[:, 1] * after[:, 0]
-    return bool((turn > _LEAST_TURN_PX2).all())
-
-
-def _fitted(
+def _fit_all(
     grey: GreyPixels,
-    first_px: Array,
-    picture: Picture,
-    frame: Array,
+    corners_px: Array,
+    pictures: Sequence[Picture],
+    frames: Array,
     camera: Camera | None,
-    bows: bool,
-) -> tuple[Array, Array, Array, bool]:
-    """Return one marker's fit, corners, covariance with bows, and whether it is any good."""
-    ink = picture.ink
-    first = 0.5 * (len(ink) - picture.side_cells)
-    square = (first, first + picture.side_cells)
-    lens = NO_LENS if camera is None else lens_around(camera, frame)
-    start_places = (first_px - frame[:2]) / frame[2]
-    start = first_fit(start_places, lens, square, frame[2])
-    fit, places, joint, noise, moved_px = fit_marker(
-        grey, ink, start, start_places, frame, lens, square, bows
-    )
-    contrast = 255 * abs(fit[BLACK + 1] - fit[BLACK])
-    sound = moved_px < _SETTLED_PX and contrast > _LEAST_CONTRAST * noise
-    sound = sound and EXPONENTS[0] < fit[EXPONENT] < EXPONENTS[1]
-    return fit, places, joint, bool(sound)
+    bowing: BoolArray,
+) -> tuple[Array, Array, Array, Array, Array]:
+    lenses = lenses_around(camera, frames)
+    inks = [picture.ink for picture in pictures]
+    sizes, sides = np.array([(len(k), p.side_cells) for k, p in zip(inks, pictures, strict=True)]).T
+    first = 0.5 * (sizes - sides)
+    squares = np.stack([first, first + sides], axis=1)
+    starts = first_fits(corners_px, frames, lenses, squares)
+    flat = np.concatenate([ink.ravel() for ink in inks])
+    return fit_markers(grey, flat, sizes.copy(), starts, frames, lenses, squares, bowing)
+
+
+def _explains(fits: Array, noises: Array, moves_px: Array) -> BoolArray:
+    """Say which fits settled on a picture whose contrast stands out of the noise, shape (n,)."""
+    contrast = 255 * np.abs(fits[:, BLACK + 1] - fits[:, BLACK])
+    sound = (moves_px < _SETTLED_PX) & (contrast > _LEAST_CONTRAST * noises)
+    exponent = fits[:, EXPONENT]
+    return np.asarray(sound & (exponent > EXPONENTS[0]) & (exponent < EXPONENTS[1]))
 
 
 def _plausible(

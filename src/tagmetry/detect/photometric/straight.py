@@ -9,6 +9,7 @@ fisheye's markers far from its axis have straight sides, and is scaled like the 
 import numpy as np
 
 from tagmetry.camera import Camera
+from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.kernel import kernel
 from tagmetry.geometry import Array
 
@@ -16,7 +17,6 @@ _DEGREE = 5
 TERMS = 21
 _GRID = np.stack(np.meshgrid(*2 * [1.3 * np.sin(np.linspace(-1, 1, 8) * np.pi / 2)]), -1)
 _PLACES = _GRID.reshape(-1, 2)
-NO_LENS = np.zeros((0, 2))
 
 
 def _powers(places: Array) -> Array:
@@ -27,29 +27,39 @@ def _powers(places: Array) -> Array:
 
 
 _SOLVER = np.linalg.pinv(_powers(_PLACES))
+_LEAST_DEPTH = 0.1  # of rays, along the one to the middle
 _X, _Y, _ONE = (_DEGREE + 1, 1, 0)  # where the terms x, y and 1 stand
 
 
-def lens_around(camera: Camera, frame: Array) -> Array:
-    """Return the coefficients of the map around a marker, (21, 2); none where there is no map.
+def lenses_around(camera: Camera | None, frames: Array) -> Array:
+    """Return the coefficients of the maps around n markers, (n, 21, 2); without a lens (n, 0, 2).
+
+    Where the camera does not see all around a marker, its map changes nothing.
 
     Args:
         camera: Intrinsics.
-        frame: Middle x, y and half diagonal of the marker, pixels.
+        frames: Middle x, y and half diagonal of the markers, pixels, shape (n, 3).
     """
-    if not camera.lens.coefficients:
-        return NO_LENS
-    rays = camera.unproject(frame[:2] + frame[2] * _PLACES)
-    ahead = camera.unproject(frame[:2])
-    if not (np.isfinite(rays).all() and np.isfinite(ahead).all()):
-        return NO_LENS
-    across = np.linalg.svd(ahead[None])[2][1:]
-    depth = rays @ ahead
-    if depth.min() < 0.1:
-        return NO_LENS
-    coefficients = _SOLVER @ ((rays @ across.T) / depth[:, None])
-    coefficients[_ONE] = 0.0
-    slope = coefficients[[_X, _Y]]
+    if camera is None or not camera.lens.coefficients:
+        return np.zeros((len(frames), 0, 2))
+    around = frames[:, None, :2] + frames[:, None, 2:] * _PLACES
+    rays, ahead = camera.unproject(around), camera.unproject(frames[:, :2])
+    seen = np.isfinite(rays).all(axis=(1, 2)) & np.isfinite(ahead).all(axis=1)
+    depth = np.einsum("nkc,nc->nk", rays, ahead)
+    seen &= depth.min(axis=1) > _LEAST_DEPTH
+    lenses = np.zeros((len(frames), TERMS, 2))
+    lenses[:, [_X, _Y]] = np.eye(2)
+    if seen.any():
+        across = np.linalg.svd(ahead[seen][:, None])[2][:, 1:]
+        flat = (rays[seen] @ np.swapaxes(across, 1, 2)) / depth[seen][..., None]
+        lenses[seen] = _scaled_like_image(_SOLVER @ flat)
+    return lenses
+
+
+def _scaled_like_image(coefficients: Array) -> Array:
+    """Return maps that change neither the middle nor, there, the scale, (n, 21, 2)."""
+    coefficients[:, _ONE] = 0.0
+    slope = coefficients[:, [_X, _Y]]
     return np.asarray(coefficients @ np.linalg.inv(slope))
 
 
@@ -68,3 +78,26 @@ def straight_place(x: float, y: float, lens: Array) -> tuple[float, float]:
             term += 1
         power_x *= x
     return to_x, to_y
+
+
+@kernel
+def straighten(room: Array, lens: Array) -> None:
+    """Replace the places of a block of pixels by those in the straight image."""
+    if len(lens) == 0:
+        return
+    for p in range(row.BLOCK):
+        x, y = straight_place(room[row.X + p], room[row.Y + p], lens)
+        room[row.X + p], room[row.Y + p] = x, y
+
+
+@kernel
+def bend_of(lens: Array) -> float:
+    """Return how far the lens moves places about the marker at most, half diagonals."""
+    if len(lens) == 0:
+        return 0.0
+    farthest = 0.0
+    for x in (-1.2, 1.2):
+        for y in (-1.2, 1.2):
+            to_x, to_y = straight_place(x, y, lens)
+            farthest = max(farthest, abs(to_x - x), abs(to_y - y))
+    return farthest

@@ -1,0 +1,136 @@
+"""The model's values of one block of pixels, and their derivatives.
+
+where each pixel lies in cells -> how white the blurred picture is there (whiteness) -> what value
+that gives (values) -> how it changes with every number of the fit.
+
+That the blur in cells changes a little with the place is left out of the derivatives; the values
+have it.
+"""
+
+import numpy as np
+
+from tagmetry.detect.photometric import block as row
+from tagmetry.detect.photometric.kernel import kernel
+from tagmetry.detect.photometric.model import BLUR, BOWS, SLOPES, bent_place
+from tagmetry.detect.photometric.values import write_values
+from tagmetry.detect.photometric.whiteness import write_whiteness
+from tagmetry.geometry import Array
+
+
+@kernel
+def evaluate(room: Array, fit: Array, edges: int, noise: float, count: int) -> None:
+    """Write the weighted residuals of a block, and their derivatives by `count` numbers.
+
+    Args:
+        room: The block, see `block`.
+        fit: The numbers.
+        edges: How many edges of each direction a pixel sees.
+        noise: Grey values; residuals far beyond count less.
+        count: 10, 18 or 23.
+    """
+    write_cells(room, fit)
+    _write_blurs(room, fit)
+    write_whiteness(room, edges)
+    write_values(room, fit, noise)
+    _weigh(room)
+    _write_by_homography(room)
+    if count > SLOPES:
+        _write_by_blur(room)
+    if count > BOWS:
+        _write_by_bows(room)
+
+
+@kernel
+def write_cells(room: Array, fit: Array) -> None:
+    """Write where pixels lie in cells, and the slopes of that."""
+    for p in range(row.BLOCK):
+        x, y = bent_place(fit, room[row.X + p], room[row.Y + p])
+        down = 1.0 / (fit[6] * x + fit[7] * y + 1.0)
+        u = (fit[0] * x + fit[1] * y + fit[2]) * down
+        v = (fit[3] * x + fit[4] * y + fit[5]) * down
+        room[row.BENT_X + p], room[row.BENT_Y + p] = x, y
+        room[row.U + p], room[row.V + p], room[row.DOWN + p] = u, v, down
+        room[row.UX + p], room[row.UY + p] = (
+            (fit[0] - u * fit[6]) * down,
+            (fit[1] - u * fit[7]) * down,
+        )
+        room[row.VX + p], room[row.VY + p] = (
+            (fit[3] - v * fit[6]) * down,
+            (fit[4] - v * fit[7]) * down,
+        )
+
+
+@kernel
+def _write_blurs(room: Array, fit: Array) -> None:
+    """Write one over the blur in cells, along u and along v, and how these are correlated."""
+    xx, xy, yy = fit[BLUR], fit[BLUR + 1], fit[BLUR + 2]
+    for p in range(row.BLOCK):
+        ux, uy, vx, vy = room[row.UX + p], room[row.UY + p], room[row.VX + p], room[row.VY + p]
+        sharp_u = 1.0 / np.sqrt(xx * ux * ux + 2 * xy * ux * uy + yy * uy * uy)
+        sharp_v = 1.0 / np.sqrt(xx * vx * vx + 2 * xy * vx * vy + yy * vy * vy)
+        mixed = xx * ux * vx + xy * (ux * vy + uy * vx) + yy * uy * vy
+        room[row.SHARP_U + p], room[row.SHARP_V + p] = sharp_u, sharp_v
+        room[row.CORRELATION + p] = mixed * sharp_u * sharp_v
+
+
+@kernel
+def _weigh(room: Array) -> None:
+    """Turn slopes of the whiteness per blur into those of the weighted value per cell."""
+    for p in range(row.BLOCK):
+        by_white = room[row.BY_WHITE + p]
+        by_u, by_v = by_white * room[row.SHARP_U + p], by_white * room[row.SHARP_V + p]
+        room[row.BY_U + p] *= by_u
+        room[row.BY_V + p] *= by_v
+        room[row.BY_BLUR_U + p] *= by_u
+        room[row.BY_BLUR_V + p] *= by_v
+        room[row.BY_CORRELATION + p] *= by_white
+
+
+@kernel
+def _write_by_homography(room: Array) -> None:
+    first = row.J
+    for p in range(row.BLOCK):
+        x, y, down = room[row.BENT_X + p], room[row.BENT_Y + p], room[row.DOWN + p]
+        by_u, by_v = down * room[row.BY_U + p], down * room[row.BY_V + p]
+        back = -(by_u * room[row.U + p] + by_v * room[row.V + p])
+        room[first + p] = by_u * x
+        room[first + row.BLOCK + p] = by_u * y
+        room[first + 2 * row.BLOCK + p] = by_u
+        room[first + 3 * row.BLOCK + p] = by_v * x
+        room[first + 4 * row.BLOCK + p] = by_v * y
+        room[first + 5 * row.BLOCK + p] = by_v
+        room[first + 6 * row.BLOCK + p] = back * x
+        room[first + 7 * row.BLOCK + p] = back * y
+
+
+@kernel
+def _write_by_blur(room: Array) -> None:
+    first = row.J + BLUR * row.BLOCK
+    for p in range(row.BLOCK):
+        ux, uy, vx, vy = room[row.UX + p], room[row.UY + p], room[row.VX + p], room[row.VY + p]
+        sharp_u, sharp_v = room[row.SHARP_U + p], room[row.SHARP_V + p]
+        turning = room[row.BY_CORRELATION + p]
+        lost = turning * room[row.CORRELATION + p]
+        by_uu = 0.5 * sharp_u * (room[row.BY_BLUR_U + p] - lost * sharp_u)
+        by_vv = 0.5 * sharp_v * (room[row.BY_BLUR_V + p] - lost * sharp_v)
+        by_uv = turning * sharp_u * sharp_v
+        room[first + p] = by_uu * ux * ux + by_vv * vx * vx + by_uv * ux * vx
+        room[first + row.BLOCK + p] = 2 * (by_uu * ux * uy + by_vv * vx * vy) + by_uv * (
+            ux * vy + uy * vx
+        )
+        room[first + 2 * row.BLOCK + p] = by_uu * uy * uy + by_vv * vy * vy + by_uv * uy * vy
+
+
+@kernel
+def _write_by_bows(room: Array) -> None:
+    first = row.J + BOWS * row.BLOCK
+    for p in range(row.BLOCK):
+        x, y, by_u, by_v = room[row.X + p], room[row.Y + p], room[row.BY_U + p], room[row.BY_V + p]
+        by_x = by_u * room[row.UX + p] + by_v * room[row.VX + p]
+        by_y = by_u * room[row.UY + p] + by_v * room[row.VY + p]
+        far, saddle, twist = x * x + y * y - 1.0, x * x - y * y, 2 * x * y
+        room[first + p] = far * by_x
+        room[first + row.BLOCK + p] = far * by_y
+        room[first + 2 * row.BLOCK + p] = saddle * by_x - twist * by_y
+        room[first + 3 * row.BLOCK + p] = twist * by_x + saddle * by_y
+        room[first + 4 * row.BLOCK + p] = far * (by_x * x + by_y * y)

@@ -1,0 +1,32 @@
+"""The model's values and derivatives at any places, by the kernels that work on blocks."""
+
+import numpy as np
+
+from tagmetry.detect.photometric import block as row
+from tagmetry.detect.photometric.evaluate import evaluate
+from tagmetry.detect.photometric.ink import changes
+from tagmetry.detect.photometric.pixels import set_windows
+from tagmetry.detect.photometric.view import View
+from tagmetry.geometry import Array
+
+_NO_NOISE_LIMIT = 1e9  # so that all weights are 1
+_NO_GREY = np.zeros((1, 1), dtype=np.uint8)
+
+
+def evaluated(fit: Array, ink: Array, places: Array, edges: int) -> tuple[Array, Array]:
+    """Return the grey values of places, (n,), and their derivatives by the fit, (n, 23)."""
+    count = len(places)
+    room, pixels = row.new_room(), np.zeros((-(-count // row.BLOCK), row.READ))
+    for k, (x, y) in enumerate(places):
+        block, p = pixels[k // row.BLOCK], k % row.BLOCK
+        block[row.X + p], block[row.Y + p] = x, y
+    view = View(_NO_GREY, np.array([0.0, 0, 1]), np.zeros((0, 2)), room, pixels)
+    set_windows(view, fit, count, changes(ink), edges)
+    values, by_fit = [], []
+    for block in pixels:
+        room[: row.READ] = block
+        evaluate(room, fit, edges, _NO_NOISE_LIMIT, len(fit))
+        values.append(-room[row.RESIDUAL : row.RESIDUAL + row.BLOCK].copy())
+        end = row.J + len(fit) * row.BLOCK
+        by_fit.append(room[row.J : end].reshape(len(fit), row.BLOCK).T.copy())
+    return np.concatenate(values)[:count], np.concatenate(by_fit)[:count]
