@@ -74,6 +74,7 @@ def test_black_and_white_follow_uneven_light() -> None:
     )
     expected = np.interp(read.bits_px[:, 0], np.arange(len(slope)), slope)
     np.testing.assert_allclose(read.levels[:, 1], 200 * expected, atol=6)
+    np.testing.assert_allclose(np.abs(read.margins), 1.0, atol=0.12)
     np.testing.assert_array_equal(read.is_white, family("tag36h11").codes[7])
 
 

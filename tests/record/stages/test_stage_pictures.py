@@ -57,7 +57,7 @@ def test_the_page_holds_every_picture_and_asks_for_no_other_file(
     assert len(sources) == len(NAMES)
     for source in sources:
         kind, _, content = source.partition(",")
-        assert kind == "data:image/png;base64"
+        assert kind == "data:image/jpeg;base64"
         pixels = cv2.imdecode(np.frombuffer(base64.b64decode(content), np.uint8), 1)
         assert pixels.ndim == 3
     assert not re.search(r"https?://|<script|<link", page)

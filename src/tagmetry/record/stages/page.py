@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from html import escape
 
 from tagmetry.record.calibration_report.style import STYLE
-from tagmetry.record.stages.panel import Panel, png
+from tagmetry.record.stages.panel import Panel, jpeg
 
 
 def page(groups: Sequence[tuple[str, Sequence[Panel]]]) -> str:
@@ -27,9 +27,9 @@ def page(groups: Sequence[tuple[str, Sequence[Panel]]]) -> str:
 
 
 def _figure(panel: Panel, number: int) -> str:
-    source = base64.b64encode(png(panel.pixels)).decode()
+    source = base64.b64encode(jpeg(panel.pixels)).decode()
     return (
         f"<figure><h3>{number}. {escape(panel.title)}</h3>"
-        f'<img alt="{escape(panel.title)}" src="data:image/png;base64,{source}">'
+        f'<img alt="{escape(panel.title)}" src="data:image/jpeg;base64,{source}">'
         f"<figcaption>{escape(panel.text)}</figcaption></figure>"
     )

@@ -61,6 +61,12 @@ def png(pixels: GreyPixels) -> bytes:
     return bytes(content.tobytes())
 
 
+def jpeg(pixels: GreyPixels) -> bytes:
+    """Return a picture as JPEG, a fifth of the size."""
+    _, content = cv2.imencode(".jpg", pixels, [cv2.IMWRITE_JPEG_QUALITY, 90])
+    return bytes(content.tobytes())
+
+
 def _widened(pixels: GreyPixels) -> GreyPixels:
     """Return a narrow picture in the middle of a ground that has room for the text."""
     missing = max(0, _LEAST_WIDTH_PX - pixels.shape[1])
