@@ -28,7 +28,7 @@ from tagmetry.lab.engines import OURS, installed
 
 DOCS = Path(__file__).parent
 GENERATED, IMAGES = DOCS / "generated", DOCS / "images" / "bench"
-PICTURES = {"speed": ("time", "noise", "robots"), "accuracy": ("corners", "gamma", "recall")}
+PICTURES = {"speed": ("time", "noise", "robots"), "accuracy": ("trade", "corners", "gamma")}
 TIMED = ("count-1", "count-24", "count-360", "plain", "noise-8", "noise-16", "size-480p", "size-4k")
 FILMS = ("film-24", "film-96", "film-360")
 SIDES = ("side-12", "side-16", "side-20", "side-30", "count-24", "side-100", "side-200")

@@ -65,8 +65,14 @@ def test_draws_what_there_is(tmp_path: Path) -> None:
     assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_refuses_to_draw_a_single_case(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match="these cases make no curve"):
+def test_draws_a_single_case(tmp_path: Path) -> None:
+    one = Row("own", "tagmetry", 2, "wall", 2.0, p50_ms=5.0, corner_rms_px=0.01)
+    drawn([one], tmp_path / "out.png")
+    assert (tmp_path / "out.png").exists()
+
+
+def test_refuses_to_draw_nothing(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="nothing was found that could be drawn"):
         drawn([Row("count-1", "tagmetry", 1, "processor", 2.0, p50_ms=5.0)], tmp_path / "out.png")
     assert not list(tmp_path.iterdir())
 

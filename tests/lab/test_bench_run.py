@@ -153,13 +153,14 @@ def test_refuses_a_file_that_is_not_there(tmp_path: Path) -> None:
 
 
 def test_compares_what_is_in_both() -> None:
-    before = results(row(p50_ms=4.0), row("gone", p50_ms=1.0), row(engine="locus", p50_ms=10.0))
-    now = results(row(p50_ms=1.0), row("new", p50_ms=1.0), row(engine="locus", p50_ms=12.0))
-    comparison = compared(now, before)
-    assert [(c.now.engine, c.time) for c in comparison.changes] == [
-        ("tagmetry", 0.25),
-        ("locus", 1.2),
-    ]
+    engines = ("tagmetry", "tagmetry-track", "locus")
+    before = [row(engine=name, p50_ms=10.0) for name in engines]
+    now = [row(engine=name, p50_ms=t) for name, t in zip(engines, (2.5, 1.0, 12.0), strict=True)]
+    comparison = compared(
+        results(*now, row("new", p50_ms=1.0)), results(*before, row("gone", p50_ms=1.0))
+    )
+    times = {change.now.engine: change.time for change in comparison.changes}
+    assert times == {"tagmetry": 0.25, "tagmetry-track": 0.1, "locus": 1.2}
     (note,) = comparison.notes
     assert note.startswith("the peers took 1.20 of their former time (median)")
 

@@ -5,6 +5,8 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.files.atomic import write_atomically
 from tagmetry.lab.bench import seed
@@ -32,6 +34,7 @@ _COLOURS = {
 _PANEL_INCH = (5.0, 3.8)
 _LEGEND_INCH = 0.5
 _DPI = 100
+_BOUND = "Cramér-Rao bound"
 
 Value = Callable[[Row], float | None]
 Abscissa = Callable[[Setup], float]
@@ -48,7 +51,7 @@ def save_picture(results: Results, path: Path) -> None:
         raise InputError(f"expected a picture's name that ends in .png, found {path}")
     panels = available(results)
     if not panels:
-        raise InputError("these cases make no curve; leave --case out, or name several (side-*)")
+        raise InputError("nothing was found that could be drawn")
     buffer = BytesIO()
     figure_of(results, panels).savefig(buffer, format="png", dpi=_DPI)
     write_atomically(path, buffer.getvalue())
@@ -88,7 +91,33 @@ def _legend(figure: "Figure") -> None:
 def available(results: Results) -> list[str]:
     """Return the names of the panels that the results have points for."""
     cases = {row.case for row in results.rows}
-    return [name for name, setups in _NEEDED.items() if len(cases & {s.name for s in setups}) > 1]
+    curves = [name for name, setups in _NEEDED.items() if len(cases & _names(setups)) > 1]
+    return [*(["trade"] if _weighed(results) else []), *curves]
+
+
+def _time_and_error(axes: "Axes", results: Results) -> None:
+    """Draw every engine's time and error on one case: the nearer to the lower left the better."""
+    rows = _weighed(results)
+    for row in rows:
+        at = np.array([row.p50_ms, row.corner_rms_px], dtype=np.float64)
+        colour = _COLOURS.get(row.engine, "0.5")
+        axes.plot(*at, "o", ms=8, color=colour, label=row.engine)
+    if rows[0].bound_px is not None:
+        axes.axhline(rows[0].bound_px, color="k", ls="--", lw=1, label=_BOUND)
+    _dress(axes, f"Time and corners of {rows[0].case}", "ms, one thread", "rms, px")
+    _both_logarithmic(axes)
+
+
+def _weighed(results: Results) -> list[Row]:
+    """Return the rows of the standard case, or else of the first, that have time and error."""
+    rows = [row for row in results.rows if row.p50_ms and row.corner_rms_px]
+    cases = dict.fromkeys(row.case for row in rows)
+    case = SETUPS[0].name if SETUPS[0].name in cases else next(iter(cases), None)
+    return [row for row in rows if row.case == case and row.threads == rows[0].threads]
+
+
+def _names(setups: Sequence[Setup]) -> set[str]:
+    return {setup.name for setup in setups}
 
 
 def _time_by_number(axes: "Axes", results: Results) -> None:
@@ -175,7 +204,7 @@ def _bound(axes: "Axes", results: Results, setups: Sequence[Setup]) -> None:
         for setup in setups
         if row.case == setup.name and row.bound_px is not None
     }
-    axes.plot(*zip(*sorted(points.items()), strict=True), "k--", lw=1, label="Cramér-Rao bound")
+    axes.plot(*zip(*sorted(points.items()), strict=True), "k--", lw=1, label=_BOUND)
 
 
 def _dress(axes: "Axes", title: str, abscissa: str, ordinate: str) -> None:
@@ -222,6 +251,7 @@ _NOISES = [
 _FILMS = _like(["film-"], lambda setup: setup.count)
 
 PANELS: dict[str, Callable[["Axes", Results], None]] = {
+    "trade": _time_and_error,
     "time": _time_by_number,
     "noise": _time_by_noise,
     "corners": _error_by_side,
