@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tagmetry.calibrate.targets.corners import refined
+from tagmetry.calibrate.targets.corners import Guesses, refined
 from tagmetry.calibrate.targets.found import Found, NotFound
 from tagmetry.calibrate.targets.homography import fitted_homography
 from tagmetry.calibrate.targets.seen_markers import SeenMarkers, off_plane, see_markers
@@ -73,15 +73,11 @@ def _corners(grey: GreyPixels, board: CharucoBoard, seen: SeenMarkers) -> Found 
             predicted.append(_predict(place, markers_m[around], seen.corners_px[around], board))
     if not points:
         return NotFound("markers of the board are seen, but none at a corner of its squares")
-    guesses, along, down = np.moveaxis(np.array(predicted), 1, 0)
-    return refined(
-        grey,
-        np.array(points),
-        guesses,
-        along - guesses,
-        down - guesses,
-        arm=_arm(board, along - guesses),
-    )
+    places_px, right_px, below_px = np.moveaxis(np.array(predicted), 1, 0)
+    along_px, down_px = right_px - places_px, below_px - places_px
+    places_m = board.corners_m[points, :2]
+    guesses = Guesses(np.array(points), places_m, places_px, along_px, down_px)
+    return refined(grey, guesses, arm=_arm(board, along_px))
 
 
 def _predict(place_m: Array, markers_m: Array, markers_px: Array, board: CharucoBoard) -> Array:

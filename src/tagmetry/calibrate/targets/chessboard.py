@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import cv2
 import numpy as np
 
-from tagmetry.calibrate.targets.corners import refined
+from tagmetry.calibrate.targets.corners import Guesses, refined
 from tagmetry.calibrate.targets.found import Found, NotFound
 from tagmetry.calibrate.targets.order import in_board_order
 from tagmetry.calibrate.targets.squares import (
@@ -66,11 +66,18 @@ def _measured(grey: GreyPixels, grid_px: Array, coarse_px: float) -> Found | Not
     down = np.gradient(ordered, axis=0).reshape(-1, 2)
     places_px = ordered.reshape(-1, 2)
     count = len(places_px)
-    found = refined(grey, np.arange(count), places_px, along, down, coarse_px=coarse_px)
+    guesses = Guesses(np.arange(count), _places(*ordered.shape[:2]), places_px, along, down)
+    found = refined(grey, guesses, coarse_px=coarse_px)
     if len(found.points) < _LEAST_KEPT * count:
         why = found.dropped[0].reason
         return NotFound(f"only {len(found.points)} of {count} corners are good: {why}", places_px)
     return found
+
+
+def _places(rows: int, columns: int) -> Array:
+    """Return x and y of corners counted from the top left, shape (n, 2), squares."""
+    row, column = np.divmod(np.arange(rows * columns), columns)
+    return np.stack([column, -row], axis=1).astype(np.float64)
 
 
 def _seen(grey: GreyPixels, board: Chessboard, *, thorough: bool) -> Iterator[tuple[Array, float]]:

@@ -1,9 +1,15 @@
-"""From about where corners are to exactly where, and which of them to believe."""
+"""From about where corners are to exactly where, and which of them to believe.
 
-from dataclasses import dataclass
+First every corner is fitted as a crossing of straight edges. What is found says how the board's
+lines bend, and then every corner is fitted as a crossing of edges bent like that: taken for
+straight they would pull it to the inside of their curve, in all views alike.
+"""
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tagmetry.calibrate.targets.bends import line_bends
 from tagmetry.calibrate.targets.found import DroppedPoint, Found, dropped
 from tagmetry.calibrate.targets.saddles import Saddles, fit_saddles
 from tagmetry.geometry import Array
@@ -16,12 +22,39 @@ _EDGE_PX = 2.0
 _WORST_SD_PX = 1.0
 
 
+@dataclass(frozen=True, eq=False)
+class Guesses:
+    """Corners of a board, about.
+
+    Attributes:
+        points: Which of the board's points they are, shape (n,), rising.
+        places: Where they are on the board, x to its right, y to its top, shape (n, 2), any unit.
+        corners_px: Where they are in the picture, shape (n, 2).
+        along_px: From each to the next corner to the board's right, shape (n, 2).
+        down_px: From each to the next corner below on the board, shape (n, 2).
+    """
+
+    points: IntArray
+    places: Array
+    corners_px: Array
+    along_px: Array
+    down_px: Array
+
+    @property
+    def shortest_px(self) -> Array:
+        """Length of the shorter step of each, shape (n,)."""
+        steps_px = (self.along_px, self.down_px)
+        return np.asarray(np.min([np.linalg.norm(step, axis=1) for step in steps_px], axis=0))
+
+    def only(self, kept: BoolArray | IntArray) -> "Guesses":
+        """Return some of them."""
+        parts = (self.places, self.corners_px, self.along_px, self.down_px)
+        return Guesses(self.points[kept], *(part[kept] for part in parts))
+
+
 def refined(
     grey: GreyPixels,
-    points: IntArray,
-    guesses_px: Array,
-    along_px: Array,
-    down_px: Array,
+    guesses: Guesses,
     *,
     half: float = 1 / 3,
     arm: float = 1.0,
@@ -31,54 +64,70 @@ def refined(
 
     Args:
         grey: 8-bit image.
-        points: Which of the board's points they are, shape (n,), rising.
-        guesses_px: Where they are about, shape (n, 2).
-        along_px: From each to the next corner in its row, shape (n, 2).
-        down_px: From each to the next corner in its column, shape (n, 2).
+        guesses: Where the corners are about.
         half: Half a window's side, in steps.
         arm: How far from an edge pixels may lie, in steps (`fit_saddles`).
         coarse_px: How good the guesses are.
     """
-    shortest_px = np.minimum(np.linalg.norm(along_px, axis=1), np.linalg.norm(down_px, axis=1))
-    allowed_px = np.maximum(_FARTHEST * shortest_px, _FARTHEST_PX * max(1.0, coarse_px))
-    usable = _inside(grey, guesses_px) & (shortest_px >= 3.0)
-    outside = dropped(points, guesses_px, ~usable, "too small, or at the picture's edge")
-    rest = _Corners(points, guesses_px, along_px, down_px, allowed_px).only(usable)
-    lost: tuple[DroppedPoint, ...] = ()
-    found: list[Found] = []
-    for share in (1.0, _SECOND_TRY):
-        if len(rest.points):
-            good, rest, lost = _try(grey, rest, share * half, arm)
-            found.append(good)
-    return _joined(found, (*outside, *lost))
+    places_px = guesses.corners_px
+    usable = _inside(grey, places_px) & (guesses.shortest_px >= 3.0)
+    outside = dropped(guesses.points, places_px, ~usable, "too small, or at the picture's edge")
+    guesses = guesses.only(usable)
+    straight = _fitted(grey, _Corners(guesses, coarse_px), half, arm)
+    guesses = _moved(guesses, straight)
+    bends = line_bends(guesses.places, guesses.corners_px)
+    bent = _fitted(grey, _Corners(guesses, coarse_px, bends), half, arm)
+    return replace(bent, dropped=(*outside, *straight.dropped, *bent.dropped))
 
 
 @dataclass(frozen=True, eq=False)
 class _Corners:
-    """Corners to be fitted."""
+    """Corners to be fitted, and by how much their edges bend, where that is known."""
 
-    points: IntArray
-    guesses_px: Array
-    along_px: Array
-    down_px: Array
-    allowed_px: Array
+    guesses: Guesses
+    coarse_px: float
+    bends: Array | None = None
+
+    @property
+    def allowed_px(self) -> Array:
+        """How far they may move."""
+        least_px = _FARTHEST_PX * max(1.0, self.coarse_px)
+        return np.maximum(_FARTHEST * self.guesses.shortest_px, least_px)
 
     def only(self, kept: BoolArray) -> "_Corners":
-        places = (self.guesses_px, self.along_px, self.down_px, self.allowed_px)
-        return _Corners(self.points[kept], *(part[kept] for part in places))
+        bends = None if self.bends is None else self.bends[kept]
+        return _Corners(self.guesses.only(kept), self.coarse_px, bends)
+
+
+def _moved(guesses: Guesses, found: Found) -> Guesses:
+    """Return the guesses that were found, where they were found."""
+    kept = guesses.only(np.searchsorted(guesses.points, found.points))
+    return replace(kept, corners_px=found.corners_px)
+
+
+def _fitted(grey: GreyPixels, corners: _Corners, half: float, arm: float) -> Found:
+    """Fit corners in a window, and those that it does not fit in a smaller one."""
+    found: list[Found] = []
+    lost: tuple[DroppedPoint, ...] = ()
+    for share in (1.0, _SECOND_TRY):
+        if len(corners.guesses.points):
+            good, corners, lost = _try(grey, corners, share * half, arm)
+            found.append(good)
+    return _joined(found, lost)
 
 
 def _try(
     grey: GreyPixels, corners: _Corners, half: float, arm: float
 ) -> tuple[Found, _Corners, tuple[DroppedPoint, ...]]:
     """Return the corners that a window fits, the others, and what is wrong with them."""
-    fit = fit_saddles(grey, corners.guesses_px, corners.along_px, corners.down_px, half, arm)
-    moved_px = np.linalg.norm(fit.centres_px - corners.guesses_px, axis=1)
+    near = corners.guesses
+    fit = fit_saddles(grey, near.corners_px, near.along_px, near.down_px, half, arm, corners.bends)
+    moved_px = np.linalg.norm(fit.centres_px - near.corners_px, axis=1)
     too_far = moved_px > corners.allowed_px
     uncertain = fit.sd_px > _WORST_SD_PX
     good = fit.is_saddle & ~too_far & ~uncertain
     lost = _reasons(corners, fit, moved_px, too_far, uncertain)
-    found = Found(corners.points[good], fit.centres_px[good], fit.sd_px[good])
+    found = Found(near.points[good], fit.centres_px[good], fit.sd_px[good])
     return found, corners.only(~good), lost
 
 
@@ -93,7 +142,8 @@ def _reasons(
             reason = f"moved {moved_px[i]:.1f} px, more than {corners.allowed_px[i]:.1f} px"
         else:
             reason = f"uncertain by {fit.sd_px[i]:.1f} px"
-        lost.append(DroppedPoint(int(corners.points[i]), corners.guesses_px[i], reason))
+        near = corners.guesses
+        lost.append(DroppedPoint(int(near.points[i]), near.corners_px[i], reason))
     return tuple(lost)
 
 

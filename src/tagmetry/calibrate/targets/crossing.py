@@ -1,7 +1,8 @@
 """The fit of a blurred crossing of two edges to pixels, in compiled code; `saddles` has the model.
 
 The unknowns: the crossing's place x and y from the guess, the directions of both edges' normals,
-the logarithm of the blur, the mean grey and half the contrast.
+the logarithm of the blur, the mean grey, half the contrast, and by which share the light grows from
+pixel to pixel along x and y. Away from the edges only the light's own numbers matter.
 """
 
 import math
@@ -9,108 +10,95 @@ import math
 import numpy as np
 from numba import njit
 
+from tagmetry.calibrate.targets.window import pixels_around, thickness_px
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels, IntArray
 
-UNKNOWNS = 7
+UNKNOWNS, UNKNOWNS_IN_EVEN_LIGHT = 9, 7
 BLUR, MEAN, HALF_CONTRAST = 4, 5, 6
+_SHADE_X, _SHADE_Y = 7, 8
+_FIRST_BLURS_PX = (0.7, 1.4, 2.8, 5.6)
+_LOOKED_AT = 3  # every so many pixels, to begin with
 _STEPS = 15
 _SETTLED = 1e-3
-_LARGEST_HALF_PX = 16.0  # beyond, a lens' curves cost more than longer edges give
-_LEAST_HALF_PX = 2.0
+_SHADE, _SHADE_NOISE = 0.05, 3.0  # how much light changes over a step, believed at this noise
 _LOG_BLUR = (math.log(0.2), math.log(20.0))
-_LEAST_AREA_PX2 = 1e-6
-_FLAT = 6.0  # blurs from an edge beyond which it is black or white to 1e-9
+_FLAT = 5.0  # blurs from an edge beyond which it is black or white to 1e-6
 _SLOPE = math.sqrt(2 / math.pi)
 
 
 @njit(cache=True, nogil=True)
 def fit_crossings(
-    grey: GreyPixels, guesses_px: Array, steps_px: Array, half: float, arm: float
+    grey: GreyPixels,
+    guesses_px: Array,
+    steps_px: Array,
+    bends: Array,
+    half: float,
+    arm: float,
+    free: int,
 ) -> tuple[Array, Array, Array, IntArray]:
-    """Return the unknowns (n, 7), J'J there (n, 7, 7), squared residuals and pixels used (n,).
+    """Return the unknowns (n, 9), J'J there (n, free, free), squared residuals, pixels used (n,).
 
     Args:
         grey: 8-bit image, shape (height, width).
         guesses_px: Where the crossings are about, shape (n, 2).
         steps_px: The steps to the next ones, one in each column, shape (n, 2, 2).
+        bends: Curvature of the edge along each step, shape (n, 2), 1 / px; positive where it bends
+            from the step's direction toward (-y, x) of it, which is a turn from x to y.
         half: Half the window's side, as a share of the steps.
         arm: How far from an edge pixels may lie, as a share of the steps.
+        free: How many of the unknowns are, 7 (in even light) or 9.
     """
     n = len(guesses_px)
-    unknowns, curvatures = np.zeros((n, UNKNOWNS)), np.zeros((n, UNKNOWNS, UNKNOWNS))
+    unknowns, curvatures = np.zeros((n, UNKNOWNS)), np.zeros((n, free, free))
     squares, counts = np.zeros(n), np.zeros(n, np.int64)
     for i in range(n):
-        pixels = _pixels_around(grey, guesses_px[i], steps_px[i], half, arm)
+        pixels = pixels_around(grey, guesses_px[i], steps_px[i], half, arm)
         counts[i] = len(pixels)
-        if counts[i] > UNKNOWNS:
-            _start(pixels, steps_px[i], unknowns[i])
-            squares[i] = _descend(pixels, unknowns[i], curvatures[i])
+        if counts[i] > free:
+            _start(pixels, steps_px[i], bends[i], unknowns[i])
+            evenness = (_SHADE_NOISE / _SHADE * thickness_px(steps_px[i])) ** 2
+            squares[i] = _descend(pixels, bends[i], evenness, unknowns[i], curvatures[i])
     return unknowns, curvatures, squares, counts
 
 
 @njit(cache=True, nogil=True)
-def _pixels_around(
-    grey: GreyPixels, guess_px: Array, steps_px: Array, half: float, arm: float
-) -> Array:
-    """Return the pixels of a window along the steps: x and y from the guess, and grey, (k, 3)."""
+def _start(pixels: Array, steps_px: Array, bends: Array, unknowns: Array) -> None:
+    """Write first unknowns: the guess itself, edges along the steps, the blur that fits best."""
     (ax, bx), (ay, by) = steps_px
-    area = ax * by - ay * bx
-    if not abs(area) > _LEAST_AREA_PX2:
-        return np.zeros((0, 3))
-    most_u, most_v = _limit(half, math.hypot(ax, ay)), _limit(half, math.hypot(bx, by))
-    reach_x = math.ceil(abs(ax) * most_u + abs(bx) * most_v)
-    reach_y = math.ceil(abs(ay) * most_u + abs(by) * most_v)
-    column, row = round(guess_px[0]), round(guess_px[1])
-    rows = range(max(0, row - reach_y), min(grey.shape[0], row + reach_y + 1))
-    columns = range(max(0, column - reach_x), min(grey.shape[1], column + reach_x + 1))
-    pixels, count = np.empty((len(rows) * len(columns), 3)), 0
-    for r in rows:
-        for c in columns:
-            x, y = c - guess_px[0], r - guess_px[1]
-            u, v = abs(by * x - bx * y) / abs(area), abs(ax * y - ay * x) / abs(area)
-            if u <= most_u and v <= most_v and min(u, v) <= arm:
-                pixels[count, 0], pixels[count, 1], pixels[count, 2] = x, y, grey[r, c]
-                count += 1
-    return pixels[:count]
-
-
-@njit(cache=True, nogil=True)
-def _limit(half: float, length_px: float) -> float:
-    return min(max(half, _LEAST_HALF_PX / length_px), _LARGEST_HALF_PX / length_px)
-
-
-@njit(cache=True, nogil=True)
-def _start(pixels: Array, steps_px: Array, unknowns: Array) -> None:
-    """Write first unknowns: the guess itself, edges along the steps, the contrast that fits."""
-    (ax, bx), (ay, by) = steps_px
-    shortest_px = min(math.hypot(ax, ay), math.hypot(bx, by))
     unknowns[2], unknowns[3] = math.atan2(ax, -ay), math.atan2(bx, -by)
-    unknowns[BLUR] = math.log(min(max(0.06 * shortest_px, 0.7), 4.0))
     unknowns[HALF_CONTRAST] = 1.0
-    mean, alike, power = pixels[:, 2].mean(), 0.0, 1e-9
-    J, numbers = np.zeros(UNKNOWNS), _numbers(unknowns)
-    for x, y, seen in pixels:
-        pattern = _value(x, y, numbers, J)
-        alike += pattern * (seen - mean)
-        power += pattern * pattern
-    unknowns[MEAN], unknowns[HALF_CONTRAST] = mean, alike / power
+    mean, most, best = pixels[:, 2].mean(), -1.0, _FIRST_BLURS_PX[0]
+    J, contrast = np.zeros(UNKNOWNS), 0.0
+    for blur_px in _FIRST_BLURS_PX:
+        unknowns[BLUR] = math.log(blur_px)
+        numbers, alike, power = _numbers(unknowns, bends), 0.0, 1e-9
+        for x, y, seen in pixels[::_LOOKED_AT]:
+            pattern = _value(x, y, numbers, J)[0]
+            alike += pattern * (seen - mean)
+            power += pattern * pattern
+        if alike * alike / power > most:
+            most, best, contrast = alike * alike / power, blur_px, alike / power
+    unknowns[BLUR], unknowns[MEAN], unknowns[HALF_CONTRAST] = math.log(best), mean, contrast
 
 
 @njit(cache=True, nogil=True)
-def _descend(pixels: Array, unknowns: Array, curvature: Array) -> float:
+def _descend(
+    pixels: Array, bends: Array, evenness: float, unknowns: Array, curvature: Array
+) -> float:
     """Go downhill by Levenberg and Marquardt; write unknowns and J'J, return the squares left."""
-    gradient, new_gradient = np.zeros(UNKNOWNS), np.zeros(UNKNOWNS)
-    new_curvature = np.zeros((UNKNOWNS, UNKNOWNS))
-    squares, damping = _normal(pixels, unknowns, curvature, gradient), 1e-2
+    free = len(curvature)
+    gradient, new_gradient = np.zeros(free), np.zeros(free)
+    new_curvature, moved = np.zeros((free, free)), unknowns.copy()
+    squares, damping = _normal(pixels, bends, evenness, unknowns, curvature, gradient), 1e-2
     for _ in range(_STEPS):
         damped = curvature.copy()
-        for a in range(UNKNOWNS):
+        for a in range(free):
             damped[a, a] += damping * curvature[a, a] + 1e-9
-        moved = unknowns + np.linalg.solve(damped, gradient)
+        moved[:free] = unknowns[:free] + np.linalg.solve(damped, gradient)
         moved[BLUR] = min(max(moved[BLUR], _LOG_BLUR[0]), _LOG_BLUR[1])
-        far = np.abs(moved - unknowns).max()
-        new_squares = _normal(pixels, moved, new_curvature, new_gradient)
+        far = np.abs(moved - unknowns)[:MEAN].max()
+        new_squares = _normal(pixels, bends, evenness, moved, new_curvature, new_gradient)
         if new_squares < squares:
             unknowns[:], curvature[:], gradient[:] = moved, new_curvature, new_gradient
             squares, damping = new_squares, damping / 5
@@ -122,44 +110,86 @@ def _descend(pixels: Array, unknowns: Array, curvature: Array) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _normal(pixels: Array, unknowns: Array, curvature: Array, gradient: Array) -> float:
-    """Write J'J and J'r, return r'r."""
+def _normal(
+    pixels: Array,
+    bends: Array,
+    evenness: float,
+    unknowns: Array,
+    curvature: Array,
+    gradient: Array,
+) -> float:
+    """Write J'J and J'r, return r'r; even light is believed with a weight."""
     curvature[:], gradient[:] = 0.0, 0.0
-    J, squares, numbers = np.zeros(UNKNOWNS), 0.0, _numbers(unknowns)
+    free, squares = len(gradient), 0.0
+    J, numbers = np.zeros(UNKNOWNS), _numbers(unknowns, bends)
     for k in range(len(pixels)):
-        residual = pixels[k, 2] - _value(pixels[k, 0], pixels[k, 1], numbers, J)
+        value, first = _value(pixels[k, 0], pixels[k, 1], numbers, J)
+        residual = pixels[k, 2] - value
         squares += residual * residual
-        for a in range(UNKNOWNS):
+        for a in range(first, free):
             gradient[a] += J[a] * residual
-            for b in range(a + 1):
+            for b in range(first, a + 1):
                 curvature[a, b] += J[a] * J[b]
-    for a in range(UNKNOWNS):
+    for a in range(_SHADE_X, free):
+        squares += evenness * unknowns[a] ** 2
+        gradient[a] -= evenness * unknowns[a]
+        curvature[a, a] += evenness
+    for a in range(free):
         for b in range(a):
             curvature[b, a] = curvature[a, b]
     return squares
 
 
 @njit(cache=True, nogil=True)
-def _numbers(unknowns: Array) -> tuple[float, ...]:
-    """Return what all pixels share: place, cosines and sines, blur, mean, half the contrast."""
-    x, y, turn1, turn2, log_blur, mean, half_contrast = unknowns
-    cos1, sin1, cos2, sin2 = math.cos(turn1), math.sin(turn1), math.cos(turn2), math.sin(turn2)
-    return x, y, cos1, sin1, cos2, sin2, math.exp(log_blur), mean, half_contrast
+def _numbers(unknowns: Array, bends: Array) -> tuple[tuple[float, ...], ...]:
+    """Return what all pixels share: place, two edges, blur, and the light."""
+    x, y, turn1, turn2, log_blur, mean, half_contrast, shade_x, shade_y = unknowns
+    edge1 = (math.cos(turn1), math.sin(turn1), bends[0])
+    edge2 = (math.cos(turn2), math.sin(turn2), bends[1])
+    return (x, y, math.exp(log_blur)), edge1, edge2, (mean, half_contrast, shade_x, shade_y)
 
 
 @njit(cache=True, nogil=True)
-def _value(x: float, y: float, numbers: tuple[float, ...], J: Array) -> float:
-    """Return the model's grey value and write its derivatives."""
-    cx, cy, cos1, sin1, cos2, sin2, blur, mean, half_contrast = numbers
-    x, y = x - cx, y - cy
-    across1, across2 = cos1 * x + sin1 * y, cos2 * x + sin2 * y
-    edge1, slope1 = _edge(across1 / blur)
-    edge2, slope2 = _edge(across2 / blur)
-    by1, by2 = half_contrast * slope1 * edge2 / blur, half_contrast * edge1 * slope2 / blur
-    J[0], J[1] = -by1 * cos1 - by2 * cos2, -by1 * sin1 - by2 * sin2
-    J[2], J[3] = by1 * (cos1 * y - sin1 * x), by2 * (cos2 * y - sin2 * x)
-    J[BLUR], J[MEAN], J[HALF_CONTRAST] = -by1 * across1 - by2 * across2, 1.0, edge1 * edge2
-    return mean + half_contrast * edge1 * edge2
+def _value(
+    x: float, y: float, numbers: tuple[tuple[float, ...], ...], J: Array
+) -> tuple[float, int]:
+    """Return the model's grey value and the first derivative that is not zero; write them all."""
+    (cx, cy, blur), edge1, edge2, (mean, half_contrast, shade_x, shade_y) = numbers
+    across1, slant1_x, slant1_y = _across(x - cx, y - cy, edge1, blur)
+    across2, slant2_x, slant2_y = _across(x - cx, y - cy, edge2, blur)
+    side1, slope1 = _edge(across1 / blur)
+    side2, slope2 = _edge(across2 / blur)
+    light, pattern = 1 + shade_x * x + shade_y * y, side1 * side2
+    value = mean + half_contrast * pattern
+    J[MEAN], J[HALF_CONTRAST], J[_SHADE_X], J[_SHADE_Y] = (
+        light,
+        light * pattern,
+        value * x,
+        value * y,
+    )
+    if slope1 == 0.0 and slope2 == 0.0:
+        return value * light, MEAN
+    by1, by2 = (
+        half_contrast * slope1 * side2 * light / blur,
+        half_contrast * side1 * slope2 * light / blur,
+    )
+    J[0], J[1] = -by1 * slant1_x - by2 * slant2_x, -by1 * slant1_y - by2 * slant2_y
+    J[2] = by1 * (slant1_x * (y - cy) - slant1_y * (x - cx))
+    J[3] = by2 * (slant2_x * (y - cy) - slant2_y * (x - cx))
+    J[BLUR] = -by1 * across1 - by2 * across2
+    return value * light, 0
+
+
+@njit(cache=True, nogil=True)
+def _across(x: float, y: float, edge: tuple[float, ...], blur: float) -> tuple[float, float, float]:
+    """Return how far a pixel lies across a bent edge, and that distance's slope along x and y.
+
+    Blur moves a bent edge by half its curvature times the blur squared.
+    """
+    cos, sin, bend = edge
+    along = sin * x - cos * y
+    across = cos * x + sin * y - 0.5 * bend * (along * along + blur * blur)
+    return across, cos - bend * along * sin, sin + bend * along * cos
 
 
 @njit(cache=True, nogil=True)

@@ -7,7 +7,7 @@ edges: it is fitted like that of a chessboard.
 
 import numpy as np
 
-from tagmetry.calibrate.targets.corners import refined
+from tagmetry.calibrate.targets.corners import Guesses, refined
 from tagmetry.calibrate.targets.found import DroppedPoint, Found, NotFound
 from tagmetry.calibrate.targets.seen_markers import SeenMarkers, see_markers
 from tagmetry.geometry.arrays import GreyPixels, IntArray
@@ -40,13 +40,18 @@ def find_aprilgrid(grey: GreyPixels, board: AprilGrid) -> Found | NotFound:
     if not seen.agree.any():
         return _nothing(board.grid, seen)
     sure = seen.agreeing()
-    corners_px = sure.corners_px
-    onward = np.roll(corners_px, -1, axis=1) - corners_px
-    back = np.roll(corners_px, 1, axis=1) - corners_px
-    places_px, along_px, down_px = (part.reshape(-1, 2) for part in (corners_px, onward, back))
     layout = family(board.family).layout
     half = _WITHIN * min(layout.border_cells / layout.side_cells, board.spacing)
-    return refined(grey, _points(sure), places_px, along_px, down_px, half=half)
+    return refined(grey, _guesses(board, sure), half=half)
+
+
+def _guesses(board: AprilGrid, seen: SeenMarkers) -> Guesses:
+    """Return the tags' corners with the sides that meet there, those to the right and down."""
+    points, corners_px = _points(seen), seen.corners_px
+    along_px = corners_px[:, [1, 1, 2, 2]] - corners_px[:, [0, 0, 3, 3]]
+    down_px = corners_px[:, [3, 2, 2, 3]] - corners_px[:, [0, 1, 1, 0]]
+    in_picture = (part.reshape(-1, 2) for part in (corners_px, along_px, down_px))
+    return Guesses(points, board.corners_m[points, :2], *in_picture)
 
 
 def _nothing(board: GridBoard, seen: SeenMarkers) -> NotFound:

@@ -2,23 +2,33 @@
 
 Around a corner c the picture is
 
-    I(p) = a + b erf(n1 . (p - c) / (sqrt(2) s)) erf(n2 . (p - c) / (sqrt(2) s)),
+    I(p) = (a + b erf(d1 / (sqrt(2) s)) erf(d2 / (sqrt(2) s))) (1 + g . p),
+    d = n . (p - c) - k / 2 ((t . (p - c))^2 + s^2)                 across an edge
 
-two straight edges with unit normals n1 and n2, a mean grey a, half the contrast b and a blur s (in
-pixels, the pixel's own area included). All seven unknowns are fitted to the raw pixels by
-Levenberg-Marquardt (`crossing`); the covariance of c follows from the residuals. Whatever
-is the same on both sides of c, such as spread ink or a camera's gamma curve, does not move c.
+two edges with unit normals n, directions t and curvatures k, a mean grey a, half the contrast b, a
+blur s (in pixels, the pixel's own area included) and light that grows by g from pixel to pixel. The
+curvatures are given (`bends`); all other nine unknowns are fitted to the raw pixels by Levenberg-
+Marquardt (`crossing`), and the covariance of c follows from the residuals. An edge taken for
+straight over +-L would be found k L^2 / 6 to the inside of its curve: 0.01 px behind usual lenses,
+in all views alike. Whatever is the same on both sides of c, such as spread ink or a camera's gamma
+curve, does not move c.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.calibrate.targets.crossing import BLUR, HALF_CONTRAST, UNKNOWNS, fit_crossings
+from tagmetry.calibrate.targets.crossing import (
+    BLUR,
+    HALF_CONTRAST,
+    UNKNOWNS,
+    UNKNOWNS_IN_EVEN_LIGHT,
+    fit_crossings,
+)
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
-_FLOOR_PX = 0.0008  # what the model leaves out, on noiseless rendered boards
+_FLOOR_PX = 0.0002  # what the model leaves out, on noiseless rendered boards
 _SHARP_SD_PX = 0.02  # with no blur at all, as a pixel's square is no Gaussian
 _PIXEL_PX, _SOFT_PX = 0.29, 0.42  # blur of a pixel alone, and from which on it looks Gaussian
 _WORST_CONDITION = 1e14
@@ -54,6 +64,7 @@ def fit_saddles(
     down_px: Array,
     half: float = 1 / 3,
     arm: float = 1.0,
+    bends: Array | None = None,
 ) -> Saddles:
     """Fit corners between squares.
 
@@ -65,10 +76,16 @@ def fit_saddles(
         half: Half the window's side, as a share of these steps.
         arm: Only pixels this close to an edge, as a share of the steps, are looked at; the rest may
             hold a marker.
+        bends: Curvature of the edges along the rows and down the columns, shape (n, 2), 1 / px
+            (`line_bends`). Without them edges are taken for straight and the light for even, which
+            is enough to begin with.
     """
+    free = UNKNOWNS if bends is not None else UNKNOWNS_IN_EVEN_LIGHT
+    bends = np.zeros((len(guesses_px), 2)) if bends is None else np.ascontiguousarray(bends)
     steps_px = np.ascontiguousarray(np.stack([along_px, down_px], axis=-1), dtype=np.float64)
     guesses_px = np.ascontiguousarray(guesses_px, dtype=np.float64)
-    fit = _Fit(*fit_crossings(np.ascontiguousarray(grey), guesses_px, steps_px, half, arm))
+    grey = np.ascontiguousarray(grey)
+    fit = _Fit(*fit_crossings(grey, guesses_px, steps_px, bends, half, arm, free))
     return _judged(fit, guesses_px, steps_px)
 
 
@@ -84,14 +101,15 @@ class _Fit:
 
 def _judged(fit: _Fit, guesses_px: Array, steps_px: Array) -> Saddles:
     """Say how certain each corner is, and which are none."""
-    freedom = np.maximum(fit.counts - UNKNOWNS, 1.0)
+    free = fit.curvatures.shape[1]
+    freedom = np.maximum(fit.counts - free, 1.0)
     noise = np.sqrt((fit.squares + _QUANTUM**2) / freedom)
     variance, solvable = _place_variances(fit.curvatures)
     blur_px, contrast = np.exp(fit.unknowns[:, BLUR]), 2 * np.abs(fit.unknowns[:, HALF_CONTRAST])
     shortest_px = np.linalg.norm(steps_px, axis=1).min(axis=1)
     is_saddle = (
         solvable
-        & (fit.counts > 2 * UNKNOWNS)
+        & (fit.counts > 2 * free)
         & (contrast > np.maximum(6.0, 4 * noise))
         & (blur_px < 0.4 * shortest_px)
     )
@@ -104,6 +122,6 @@ def _judged(fit: _Fit, guesses_px: Array, steps_px: Array) -> Saddles:
 def _place_variances(curvatures: Array) -> tuple[Array, BoolArray]:
     """Return a corner's variance along an axis by unit noise, and whether there is one."""
     solvable = np.linalg.cond(curvatures) < _WORST_CONDITION
-    safe = np.where(solvable[:, None, None], curvatures, np.eye(UNKNOWNS))
+    safe = np.where(solvable[:, None, None], curvatures, np.eye(curvatures.shape[1]))
     variances = np.einsum("nii->ni", np.linalg.inv(safe))[:, :2].mean(axis=1)
     return np.maximum(variances, 0.0), np.asarray(solvable)
