@@ -63,6 +63,18 @@ class HangsOnDark(Good):
         return super().detect(grey)
 
 
+class WarmsUp(Good):
+    """Takes a second for its first image."""
+
+    is_warm = False
+
+    def detect(self, grey: GreyPixels) -> Found:
+        if not self.is_warm:
+            time.sleep(1)
+        self.is_warm = True
+        return super().detect(grey)
+
+
 class Chatty(Good):
     def detect(self, grey: GreyPixels) -> Found:
         os.write(1, b"noise on the output\n")

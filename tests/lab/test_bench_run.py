@@ -27,11 +27,11 @@ from tagmetry.lab.bench import (
 from tagmetry.lab.bench.case import Case, Truth
 from tagmetry.lab.bench.costs import costs
 from tagmetry.lab.bench.machine import this_machine
-from tagmetry.lab.engines import EngineKind
+from tagmetry.lab.engines import EngineKind, Patience
 
 LIGHT = np.full((40, 40), 200, np.uint8)
 NIGHT = np.zeros((40, 40), np.uint8)
-PACE = Pace(least_rounds=3, most_rounds=5, limit_s=10.0, timeout_s=5.0)
+PACE = Pace(least_rounds=3, most_rounds=5, limit_s=10.0, patience=Patience(5.0))
 SEVEN = Truth(np.array([7]), SQUARE_PX[None])
 
 
@@ -82,8 +82,8 @@ def test_who_crashes_is_a_row_and_comes_back_for_the_next_case() -> None:
 
 def test_who_hangs_is_ended_and_the_others_go_on() -> None:
     kinds = [kind(fake_engines.HangsOnDark, "bad"), kind(fake_engines.Good, "good")]
-    *_, last = run([Ready("night", (NIGHT,))], kinds, replace(PACE, timeout_s=0.3))
-    assert last.of("night", "bad", 1).failure == "no answer in 0.3 s"
+    *_, last = run([Ready("night", (NIGHT,))], kinds, replace(PACE, patience=Patience(0.3, 1.0)))
+    assert last.of("night", "bad", 1).failure == "no answer in 1 s"
     assert last.of("night", "good", 1).rounds == 5
 
 
@@ -198,6 +198,12 @@ def test_of_many_pictures_some_are_taken_and_the_name_says_so(tmp_path: Path) ->
 def test_refuses_a_picture_that_is_none(tmp_path: Path) -> None:
     (tmp_path / "a.png").write_bytes(b"no picture")
     with pytest.raises(InputError, match=r"a\.png: "):
+        own_pictures([str(tmp_path / "a.png")], "tag36h11").case()
+
+
+def test_refuses_a_picture_too_small_by_its_name(tmp_path: Path) -> None:
+    cv2.imwrite(str(tmp_path / "a.png"), np.full((1, 1), 9, np.uint8))
+    with pytest.raises(InputError, match=r"a\.png: .* 1x1 pixels is too small"):
         own_pictures([str(tmp_path / "a.png")], "tag36h11").case()
 
 

@@ -12,14 +12,17 @@ import numpy as np
 import pytest
 from fake_engines import SQUARE_PX, kind
 
-from tagmetry.lab.engines import Answer, Child, Failure
+from tagmetry.lab.engines import Answer, Child, Failure, Patience
 
 LIGHT = np.full((40, 40), 200, np.uint8)
 NIGHT = np.zeros((40, 40), np.uint8)
 
 
-def child(fake: type, threads: int = 1, timeout_s: float = 20.0) -> Child:
-    return Child(kind(fake), "tag36h11", threads, timeout_s)
+USUAL = Patience(20.0, 20.0)
+
+
+def child(fake: type, threads: int = 1, patience: Patience = USUAL) -> Child:
+    return Child(kind(fake), "tag36h11", threads, patience)
 
 
 def test_answers_what_the_engine_finds_in_each_image() -> None:
@@ -85,10 +88,18 @@ def test_an_engine_that_cannot_be_made_says_so() -> None:
 
 def test_a_silent_engine_is_ended() -> None:
     start_s = time.monotonic()
-    with child(fake_engines.HangsOnDark, timeout_s=0.3) as one:
-        one.show([NIGHT])
-        assert one.look(0) == Failure("no answer in 0.3 s")
+    with child(fake_engines.HangsOnDark, patience=Patience(0.3)) as one:
+        one.show([LIGHT, NIGHT])
+        one.look(0)
+        assert one.look(1) == Failure("no answer in 0.3 s")
     assert time.monotonic() - start_s < 15
+
+
+def test_the_first_image_has_a_patience_of_its_own() -> None:
+    with child(fake_engines.WarmsUp, patience=Patience(0.3, 20.0)) as one:
+        one.show([LIGHT])
+        assert isinstance(one.look(0), Answer)
+        assert isinstance(one.look(0), Answer)
 
 
 def test_what_an_engine_writes_goes_nowhere(capfd: pytest.CaptureFixture[str]) -> None:
@@ -111,9 +122,9 @@ def test_nothing_is_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
 
 ENDLESS = """
 import fake_engines, numpy as np
-from tagmetry.lab.engines import Child
+from tagmetry.lab.engines import Child, Patience
 if __name__ == "__main__":
-    with Child(fake_engines.kind(fake_engines.HangsOnDark), "tag36h11", 1, 60.0) as one:
+    with Child(fake_engines.kind(fake_engines.HangsOnDark), "tag36h11", 1, Patience(60.0)) as one:
         one.show([np.zeros((9, 9), np.uint8)])
         print(one._process.pid, flush=True)
         one.look(0)

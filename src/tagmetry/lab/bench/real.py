@@ -88,4 +88,8 @@ def _some(paths: Sequence[Path]) -> tuple[Path, ...]:
 
 
 def _grey(path: Path) -> GreyPixels:
-    return grey_8bit(read_picture(path, grey=True))
+    pixels = read_picture(path, grey=True)
+    try:
+        return grey_8bit(pixels)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error

@@ -11,9 +11,12 @@ from dataclasses import dataclass, field
 from tagmetry.lab.bench.case import Case
 from tagmetry.lab.bench.row import Clock
 from tagmetry.lab.bench.setup import Extent
-from tagmetry.lab.engines import Answer, Child, EngineKind, Failure, Found
+from tagmetry.lab.engines import Answer, Child, EngineKind, Failure, Found, Patience
 
 _WARMING_CYCLES = 2  # of a film, for a tracker to meet every marker
+
+
+_PATIENCE = Patience(image_s=30.0)
 
 
 @dataclass(frozen=True)
@@ -25,13 +28,13 @@ class Pace:
             each once.
         most_rounds: At most so many.
         limit_s: After this time of its own an engine has been measured enough on a case.
-        timeout_s: An engine that is silent for so long on one image is ended.
+        patience: An engine that is silent for longer is ended.
     """
 
     least_rounds: int
     most_rounds: int
     limit_s: float
-    timeout_s: float = 30.0
+    patience: Patience = _PATIENCE
 
 
 PACES: dict[Extent, Pace] = {

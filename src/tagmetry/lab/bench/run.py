@@ -29,7 +29,7 @@ def bench(
     results = Results(this_machine(), family)
     for threads in dict.fromkeys(step.threads for step in to_do):
         works = [step.work for step in to_do if step.threads == threads]
-        with Team(kinds, threads, pace.timeout_s) as team:
+        with Team(kinds, threads, pace.patience) as team:
             team.start(works[0].family)
             for work in works:
                 case = work.case()

@@ -5,7 +5,7 @@ from types import TracebackType
 from typing import Self
 
 from tagmetry.lab.bench.case import Case
-from tagmetry.lab.engines import Child, EngineKind
+from tagmetry.lab.engines import Child, EngineKind, Patience
 
 
 class Team:
@@ -14,12 +14,12 @@ class Team:
     Args:
         kinds: The engines.
         threads: For each of them.
-        timeout_s: How long one image may take.
+        patience: How long each may be silent.
     """
 
-    def __init__(self, kinds: Sequence[EngineKind], threads: int, timeout_s: float) -> None:
+    def __init__(self, kinds: Sequence[EngineKind], threads: int, patience: Patience) -> None:
         self.threads = threads
-        self._kinds, self._timeout_s = tuple(kinds), timeout_s
+        self._kinds, self._patience = tuple(kinds), patience
         self._children: dict[tuple[str, str], Child] = {}
 
     def start(self, family: str) -> None:
@@ -57,5 +57,5 @@ class Team:
         if key in self._children and self._children[key].is_dead:
             self._children.pop(key).close()
         if key not in self._children:
-            self._children[key] = Child(kind, family, self.threads, self._timeout_s)
+            self._children[key] = Child(kind, family, self.threads, self._patience)
         return self._children[key]

@@ -19,7 +19,6 @@ from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.lab.engines.engine import EngineKind
 from tagmetry.lab.engines.worker import Answer, serve
 
-_START_S = 180.0  # kernels may be compiled first
 _THREAD_VARIABLES = (
     "NUMBA_NUM_THREADS",
     "OMP_NUM_THREADS",
@@ -40,6 +39,19 @@ class Failure:
     reason: str
 
 
+@dataclass(frozen=True)
+class Patience:
+    """How long an engine may be silent before it is ended.
+
+    Attributes:
+        image_s: On one image.
+        first_s: On being made, and on its first image: kernels may be compiled there.
+    """
+
+    image_s: float
+    first_s: float = 300.0
+
+
 class Child:
     """One engine in its own process, until it is closed.
 
@@ -49,12 +61,12 @@ class Child:
         kind: The engine.
         family: What it looks for.
         threads: How many it may use.
-        timeout_s: How long one image may take it.
+        patience: How long it may take.
     """
 
-    def __init__(self, kind: EngineKind, family: str, threads: int, timeout_s: float) -> None:
+    def __init__(self, kind: EngineKind, family: str, threads: int, patience: Patience) -> None:
         self.kind = kind
-        self._timeout_s = timeout_s
+        self._patience = patience
         self._failure: Failure | None = None
         handle, name = tempfile.mkstemp(prefix="tagmetry-engine-")
         os.close(handle)
@@ -67,7 +79,7 @@ class Child:
         with _threads_limited(threads), _interrupts_kept_away():
             self._process.start()
         far_end.close()
-        self._is_made = False
+        self._is_made = self._is_warm = False
 
     @property
     def is_dead(self) -> bool:
@@ -77,14 +89,16 @@ class Child:
     def show(self, images: Sequence[GreyPixels]) -> Failure | None:
         """Give it the images that it will be asked about; return why it could not take them."""
         if not self._is_made:
-            self._receive(_START_S)
+            self._receive(self._patience.first_s)
             self._is_made = True
-        self._order(tuple(images))
+        self._order(tuple(images), self._patience.image_s)
         return self._failure
 
     def look(self, number: int) -> Answer | Failure:
         """Return what it finds in one of its images."""
-        answer = self._order(number)
+        patience_s = self._patience.image_s if self._is_warm else self._patience.first_s
+        self._is_warm = True
+        answer = self._order(number, patience_s)
         return answer if isinstance(answer, Answer) else self._failed()
 
     def close(self) -> None:
@@ -106,7 +120,7 @@ class Child:
     ) -> None:
         self.close()
 
-    def _order(self, order: tuple[GreyPixels, ...] | int) -> object:
+    def _order(self, order: tuple[GreyPixels, ...] | int, patience_s: float) -> object:
         if self._failure is not None:
             return None
         try:
@@ -114,18 +128,18 @@ class Child:
         except OSError:
             self._failure = Failure(self._death())
             return None
-        return self._receive(self._timeout_s)
+        return self._receive(patience_s)
 
-    def _receive(self, timeout_s: float) -> object:
+    def _receive(self, patience_s: float) -> object:
         """Return what it says; None when it is dead, or killed for its silence."""
         try:
-            if self._pipe.poll(timeout_s):
+            if self._pipe.poll(patience_s):
                 return self._pipe.recv()
         except (EOFError, OSError):
             self._failure = Failure(self._death())
             return None
         self._process.kill()
-        self._failure = Failure(f"no answer in {timeout_s:g} s")
+        self._failure = Failure(f"no answer in {patience_s:g} s")
         return None
 
     def _failed(self) -> Failure:
