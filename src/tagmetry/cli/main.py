@@ -19,6 +19,7 @@ from tagmetry.cli.detect import detect
 from tagmetry.cli.doctor import doctor
 from tagmetry.cli.info import info
 from tagmetry.cli.lab import app as lab_app
+from tagmetry.cli.locate import locate
 from tagmetry.cli.print import app as print_app
 from tagmetry.cli.twin import app as twin_app
 from tagmetry.errors import InputError
@@ -31,6 +32,7 @@ app = typer.Typer(
 )
 app.command()(detect)
 app.command()(calibrate)
+app.command()(locate)
 app.add_typer(print_app, name="print")
 app.add_typer(camera_app, name="camera")
 app.add_typer(twin_app, name="twin")

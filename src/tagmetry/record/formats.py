@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from tagmetry.errors import InputError
-from tagmetry.record.jsonl import LinesWriter, read_lines
+from tagmetry.record.jsonl import LinesWriter, format_line, read_lines
 from tagmetry.record.parquet import ParquetEncoder, read_parquet
 from tagmetry.record.result import ImageResult
 from tagmetry.record.table import TableEncoder
@@ -34,7 +34,7 @@ def open_writer(
         InputError: The suffix is another one; later, the file cannot be written.
     """
     writers: dict[str, Callable[[], Writer[ImageResult]]] = {
-        ".jsonl": lambda: LinesWriter(path),
+        ".jsonl": lambda: LinesWriter(path, format_line),
         ".csv": lambda: WholeFileWriter(path, TableEncoder()),
         ".parquet": lambda: WholeFileWriter(path, ParquetEncoder()),
         ".tum": lambda: WholeFileWriter(path, TrajectoryEncoder(marker, inverse=inverse)),

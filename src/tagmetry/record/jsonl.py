@@ -7,11 +7,11 @@ that a run that is killed leaves whole lines.
 import os
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
-from typing import BinaryIO, Self
+from typing import BinaryIO, Generic, Self, TypeVar
 
 from pydantic import ValidationError
 
@@ -19,6 +19,8 @@ from tagmetry.errors import InputError
 from tagmetry.files.atomic import refusing
 from tagmetry.record.line import ImageLine, first_complaint, from_line, to_line
 from tagmetry.record.result import ImageResult
+
+Item = TypeVar("Item")
 
 LONGEST_LINE_BYTES = 64 * 2**20  # some 20,000 markers; a longer one is no line of ours
 
@@ -63,11 +65,13 @@ def read_lines(path: Path) -> Iterator[ImageResult]:
                 warnings.warn(text, CutLineWarning, stacklevel=2)
 
 
-class LinesWriter:
+class LinesWriter(Generic[Item]):
     """Writes results as JSON lines to a file or pipe, or to the standard output for `-`."""
 
-    def __init__(self, path: str | Path) -> None:
+    def __init__(self, path: str | Path, text_of: Callable[[Item], str]) -> None:
+        """Choose the file, and what makes a line, without its end, of an item."""
         self._name = str(path)
+        self._text_of = text_of
         self._file: BinaryIO = sys.stdout.buffer
 
     def __enter__(self) -> Self:
@@ -76,9 +80,9 @@ class LinesWriter:
                 self._file = Path(self._name).open("wb", buffering=0)
         return self
 
-    def write(self, item: ImageResult) -> None:
+    def write(self, item: Item) -> None:
         """Write one image; it is in the file when this returns."""
-        content = format_line(item).encode() + b"\n"
+        content = self._text_of(item).encode() + b"\n"
         with refusing(self._name):
             _append_whole(self._file, content)
 
