@@ -57,6 +57,15 @@ def test_the_tracker_is_held_against_the_detector_and_the_clock() -> None:
     assert (rate.measured, rate.holds) == (50.0, False)
 
 
+def test_stated_covariances_are_judged_over_all_markers() -> None:
+    (goal,) = reached(
+        row("side-30", "tagmetry", distance2=8.0, found=30),
+        row("gamma-60", "tagmetry", distance2=12.0, found=10),
+    )
+    assert goal.measured == pytest.approx(1.0)
+    assert goal.holds
+
+
 def test_a_false_positive_is_one_too_many() -> None:
     assert [goal.holds for goal in reached(row("none", "tagmetry"))] == [True]
     assert [goal.holds for goal in reached(row("none", "tagmetry", false_positives=1))] == [False]

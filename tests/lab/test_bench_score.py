@@ -62,6 +62,16 @@ def test_a_row_says_how_many_how_fast_and_how_far() -> None:
     assert row.corner_rms_px == pytest.approx(0.3 / np.sqrt(2))
     assert (row.megapixels, row.rounds, row.memory_mib) == (0.02, 3, 12.0)
     assert row.position_error_percent is None
+    assert row.distance2 is None
+
+
+def test_stated_covariances_are_judged_by_what_happened() -> None:
+    off = np.zeros((4, 2))
+    off[0], off[2, 1] = [0.2, 0.0], 0.3
+    doubted = np.diag([0.04, 1, 1, 1, 1, 0.01, 1, 1])  # 0.2 and 0.1 px of those two
+    found = Found.of([3, 5], [SQUARE + off, SQUARE + 50], [doubted, np.eye(8)])
+    (row,) = scored(case(truth(3, 5)), [course(found)], 1)
+    assert row.distance2 == pytest.approx((1.0 + 9.0) / 2)
 
 
 def test_ratios_are_to_our_own_detector() -> None:

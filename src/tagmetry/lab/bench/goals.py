@@ -46,6 +46,7 @@ def goals(results: Results) -> list[Goal]:
         *_tracking(results),
         *_recalls(results),
         *_corners(results),
+        *_covariances(results),
         *_false_positives(results),
     ]
 
@@ -87,6 +88,15 @@ def _corners(results: Results) -> Iterator[Goal]:
         if ours and ours.corner_rms_px and peers_px:
             share = ours.corner_rms_px / min(peers_px)
             yield Goal(f"{case}: corners by the best peer's", share, 0.2)
+
+
+def _covariances(results: Results) -> Iterator[Goal]:
+    """Judge the stated covariance over all of these cases together, for the sake of numbers."""
+    rows = [ours for case in (*_LINEAR, *_GAMMA) if (ours := _ours(results, case))]
+    weighed = [(row.distance2, row.found) for row in rows if row.distance2 is not None]
+    if weighed:
+        mean = sum(d2 * count for d2, count in weighed) / sum(count for _, count in weighed)
+        yield Goal("stated covariance: mean squared distance, off 8", abs(mean - 8), 1.0)
 
 
 def _false_positives(results: Results) -> Iterator[Goal]:

@@ -28,6 +28,8 @@ class Row:
         false_positives: What else it found; by agreement: what nobody else did.
         corner_rms_px: Root mean square error of a corner's coordinate.
         bound_px: The least that the noise allows, by Cramer and Rao.
+        distance2: Mean squared distance of a marker's corners from the truth, by the covariance
+            that the engine states; 8 where that is right.
         position_error_percent: Median error of the marker's place, of its distance.
         angle_error_deg: Median error of the rotation.
         flips: How often the wrong one of both poses was taken for the likelier.
@@ -50,6 +52,7 @@ class Row:
     false_positives: int = 0
     corner_rms_px: float | None = None
     bound_px: float | None = None
+    distance2: float | None = None
     position_error_percent: float | None = None
     angle_error_deg: float | None = None
     flips: int | None = None

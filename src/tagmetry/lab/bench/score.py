@@ -62,13 +62,30 @@ def _judged(row: Row, case: Case, course: Course, truths: Sequence[Truth]) -> Ro
     if row.found == 0:
         return row
     off_px = np.concatenate([_off_px(course, truths[n], pairs[n], n) for n in looked_at])
-    row = replace(row, corner_rms_px=float(np.sqrt(np.mean(off_px**2))))
+    row = replace(
+        row,
+        corner_rms_px=float(np.sqrt(np.mean(off_px**2))),
+        distance2=_distance2(course, pairs, off_px) if case.truths is not None else None,
+    )
     return _with_pose(row, _pose_errors(case, course, truths, pairs))
 
 
 def _off_px(course: Course, truth: Truth, pairs: Matches, n: int) -> Array:
     """Return the corners' errors in an image, shape (k, 4, 2)."""
     return course.found[n].corners_px[pairs.found] - truth.corners_px[pairs.true]
+
+
+def _distance2(course: Course, pairs: dict[int, Matches], off_px: Array) -> float | None:
+    """Return the mean of d' inv(C) d over all markers, None where no covariance is stated."""
+    stated = [
+        covariances_px2[both.found]
+        for n, both in pairs.items()
+        if (covariances_px2 := course.found[n].covariances_px2) is not None
+    ]
+    if not stated:
+        return None
+    d = off_px.reshape(-1, 8, 1)
+    return float(np.mean(d.swapaxes(1, 2) @ np.linalg.solve(np.concatenate(stated), d)))
 
 
 def _pose_errors(

@@ -21,17 +21,21 @@ class Found:
     Attributes:
         ids: Shape (n,).
         corners_px: Shape (n, 4, 2).
+        covariances_px2: Of (x0, y0, x1, ...), shape (n, 8, 8), where the engine states them.
     """
 
     ids: IntArray
     corners_px: Array
+    covariances_px2: Array | None = None
 
     @classmethod
-    def of(cls, ids: object, corners_px: object) -> "Found":
+    def of(cls, ids: object, corners_px: object, covariances_px2: object = None) -> "Found":
         """Return what was found as arrays; nothing found has arrays of length 0."""
+        stated = covariances_px2 is not None
         return cls(
             np.asarray(ids, dtype=np.int64).reshape(-1),
             np.asarray(corners_px, dtype=np.float64).reshape(-1, 4, 2),
+            np.asarray(covariances_px2, dtype=np.float64).reshape(-1, 8, 8) if stated else None,
         )
 
 

@@ -21,4 +21,8 @@ class WholeImage:
 
 def found_of(detections: tuple[Detection, ...]) -> Found:
     """Return our detections as any engine's."""
-    return Found.of([one.id for one in detections], [one.corners_px for one in detections])
+    return Found.of(
+        [one.id for one in detections],
+        [one.corners_px for one in detections],
+        [one.corners_cov_px2 for one in detections],
+    )
