@@ -1,9 +1,9 @@
 """Dark squares in a grey image, found by kernels that look at each pixel a few times only.
 
-tiles (what is dark here?) -> mask -> runs -> components (which belong together, which may be a
-marker) -> outline (walked once around each) -> corners (four lines) -> squares (all passes).
+tiles (what is dark here?) -> mask -> starts (where may an outline begin?) -> outline (walked once
+around each) -> corners (four lines) -> look (all of these) -> squares (all looks).
 """
 
-from tagmetry.detect.segment.squares import Squares, squares
+from tagmetry.detect.segment.squares import Squares, squares, squares_at_a_glance
 
-__all__ = ["Squares", "squares"]
+__all__ = ["Squares", "squares", "squares_at_a_glance"]

@@ -19,30 +19,14 @@ _LEAST_ANGLE_SINE = 0.2
 
 
 @njit(cache=True, nogil=True)
-def four_corners(points: Array, outset_px: float, corners: Array) -> bool:
-    """Write the corners of an outline with four sides; say whether it has four.
+def far_points(points: Array, slack_px: float, indices: IntArray) -> bool:
+    """Write which points of an outline are its corners; say whether it has four sides.
 
     Args:
         points: Closed, clockwise as seen, shape (n, 2).
-        outset_px: How far outside the outline the sides are.
-        corners: For the result, clockwise as seen, shape (4, 2).
+        slack_px: How much farther than usual the outline may stray from its sides.
+        indices: For the result, in order, shape (5,); the last is the first again, n later.
     """
-    indices = np.empty(5, np.int64)
-    if not _four_far_points(points, indices[:4]):
-        return False
-    indices[4] = indices[0] + len(points)
-    lines = np.empty((4, 4))
-    for side in range(4):
-        if indices[side + 1] - indices[side] < 4:
-            return False
-        if not _fit_line(points, indices[side], indices[side + 1], outset_px, lines[side]):
-            return False
-    return _meet(lines, corners)
-
-
-@njit(cache=True, nogil=True)
-def _four_far_points(points: Array, indices: IntArray) -> bool:
-    """Write the indices of the four corners in order; say whether four describe the outline."""
     n = len(points)
     middle_x, middle_y = points[:, 0].mean(), points[:, 1].mean()
     begin = _farthest(points, middle_x, middle_y)
@@ -55,15 +39,32 @@ def _four_far_points(points: Array, indices: IntArray) -> bool:
     at = np.empty(4, np.int64)
     for known in range(2, 5):
         for k in range(known):
-            end = indices[k + 1] if k + 1 < known else begin + n
-            stray[k], at[k] = _strays(points, indices[k], end)
+            stray[k], at[k] = _strays(points, indices[k], indices[k + 1])
         worst = stray[:known].argmax()
-        if known == 4:
-            return bool(stray[worst] <= max(_STRAIGHT_PX, _STRAIGHT * _way(points, indices)))
-        for k in range(known, worst + 1, -1):
-            indices[k] = indices[k - 1]
-        indices[worst + 1] = at[worst]
-    return False
+        if known < 4:
+            for k in range(known, worst, -1):
+                indices[k + 1] = indices[k]
+            indices[worst + 1] = at[worst]
+    return bool(stray.max() <= slack_px + max(_STRAIGHT_PX, _STRAIGHT * _way(points, indices)))
+
+
+@njit(cache=True, nogil=True)
+def four_corners(points: Array, indices: IntArray, outset_px: float, corners: Array) -> bool:
+    """Write where the four lines fitted to an outline meet; say whether they make a square.
+
+    Args:
+        points: Closed, clockwise as seen, shape (n, 2).
+        indices: As `far_points` gives them, shape (5,).
+        outset_px: How far outside the outline the sides are.
+        corners: For the result, clockwise as seen, shape (4, 2).
+    """
+    lines = np.empty((4, 4))
+    for side in range(4):
+        if indices[side + 1] - indices[side] < 4:
+            return False
+        if not _fit_line(points, indices[side], indices[side + 1], outset_px, lines[side]):
+            return False
+    return _meet(lines, corners)
 
 
 @njit(cache=True, nogil=True)

@@ -1,77 +1,82 @@
-"""The outline of a component: the way around it along the cracks between dark and bright pixels.
+"""The outline of a dark area: the way around it along the cracks between dark and bright pixels.
 
 A crack is the border between a dark pixel and one of its four neighbours that is not. The walk goes
-clockwise as seen, the dark on its right hand. On each crack the outline's point is where the grey
-values, taken to change linearly between the two pixels, pass the level: far finer than a pixel.
+clockwise as seen, the dark on its right hand. Where the outline passes a crack is told by the grey
+values, taken to change linearly between the two pixels: far finer than a pixel.
 """
 
-import numpy as np
 from numba import njit
 
 from tagmetry.detect.segment.mask import RIM_PX
+from tagmetry.detect.segment.starts import Places
 from tagmetry.detect.segment.tiles import TILE_PX
 from tagmetry.geometry.arrays import Array, GreyPixels
 
-_AHEAD = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])  # above, right of, below, left of a pixel
-_OUT = np.array([[0, -1], [1, 0], [0, 1], [-1, 0]])
+_ABOVE = 0  # sides of a pixel, as the walk meets them: above, right, below, left
+_AHEAD_X, _AHEAD_Y = (1, 0, -1, 0), (0, 1, 0, -1)
+_OUT_X, _OUT_Y = (0, 1, 0, -1), (-1, 0, 1, 0)
+_WALKED = 2  # mark in the mask of a pixel whose upper crack was walked
 
 
 @njit(cache=True, nogil=True)
-def outline_length(mask: GreyPixels, start: tuple[int, int], most: int) -> int:
-    """Return the number of cracks around a component; 0 when they are more than `most`.
+def walk(mask: GreyPixels, start: Places, cracks: Places) -> int:
+    """Walk around a dark area, write its cracks and return how many they are.
+
+    The walk is given up, with 0, as soon as it meets what shows that the outline begins elsewhere:
+    a pixel earlier in reading order, or one that was walked before. So no crack is walked much more
+    than once, whatever the image holds.
 
     Args:
-        mask: Zeros and ones with a rim of zeros.
-        start: Column and row in the mask of the component's first pixel in reading order.
-        most: The longest way that is worth walking.
+        mask: Zeros and ones with a rim of zeros; pixels are marked in it.
+        start: Column and row in the mask of the area's first pixel in reading order.
+        cracks: For the result, column and row in the mask of the dark pixel and which of its sides,
+            shape (the longest way that is worth walking, 3).
     """
-    x, y, side = start[0], start[1], 0
-    for count in range(1, most + 1):
-        x, y, side = _next(mask, x, y, side)
-        if x == start[0] and y == start[1] and side == 0:
-            return count
+    x, y, side = start[0], start[1], _ABOVE
+    for count in range(len(cracks)):
+        if side == _ABOVE:
+            if count and x == start[0] and y == start[1]:
+                return count
+            if y < start[1] or (y == start[1] and x < start[0]) or mask[y, x] & _WALKED:
+                return 0
+            mask[y, x] |= _WALKED
+        cracks[count, 0], cracks[count, 1], cracks[count, 2] = x, y, side
+        ahead_x, ahead_y = x + _AHEAD_X[side], y + _AHEAD_Y[side]
+        left_x, left_y = ahead_x + _OUT_X[side], ahead_y + _OUT_Y[side]
+        if not mask[ahead_y, ahead_x]:
+            side = (side + 1) % 4
+        elif mask[left_y, left_x]:
+            x, y, side = left_x, left_y, (side + 3) % 4
+        else:
+            x, y = ahead_x, ahead_y
     return 0
 
 
 @njit(cache=True, nogil=True)
-def outline(
-    mask: GreyPixels,
-    grey: GreyPixels,
-    levels: GreyPixels,
-    start: tuple[int, int],
-    points: Array,
-) -> None:
-    """Fill `points` with a component's outline.
-
-    Args:
-        mask: Zeros and ones with a rim of zeros.
-        grey: The image that the mask was made of, shape (h, w).
-        levels: Below which each tile's pixels are dark; of size 0 when points are to stand midway.
-        start: Column and row in the mask of the component's first pixel in reading order.
-        points: For the result, pixels of the image, shape (outline_length, 2).
-    """
-    x, y, side = start[0], start[1], 0
+def midway(cracks: Places, every: int, points: Array) -> None:
+    """Fill `points` with the middles of one in `every` cracks (n, 3), pixels of the image."""
     for i in range(len(points)):
-        out_x, out_y = _OUT[side]
-        share = 0.5
-        if levels.size:
-            share = _crossing(grey, levels, x - RIM_PX, y - RIM_PX, out_x, out_y)
-        points[i, 0] = x - RIM_PX + share * out_x
-        points[i, 1] = y - RIM_PX + share * out_y
-        x, y, side = _next(mask, x, y, side)
+        x, y, side = cracks[i * every]
+        points[i, 0] = x - RIM_PX + 0.5 * _OUT_X[side]
+        points[i, 1] = y - RIM_PX + 0.5 * _OUT_Y[side]
 
 
 @njit(cache=True, nogil=True)
-def _next(mask: GreyPixels, x: int, y: int, side: int) -> tuple[int, int, int]:
-    """Return the crack after this one: the dark pixel and which of its sides."""
-    ahead_x, ahead_y = x + _AHEAD[side, 0], y + _AHEAD[side, 1]
-    left_x, left_y = ahead_x + _OUT[side, 0], ahead_y + _OUT[side, 1]
-    ahead, left = mask[ahead_y, ahead_x] != 0, mask[left_y, left_x] != 0
-    if left and ahead:
-        return left_x, left_y, (side + 3) % 4
-    if ahead:
-        return ahead_x, ahead_y, side
-    return x, y, (side + 1) % 4
+def at_level(cracks: Places, grey: GreyPixels, levels: GreyPixels, points: Array) -> None:
+    """Fill `points` with the places where the image passes the level on its way across each crack.
+
+    Args:
+        cracks: As `walk` gives them, shape (n, 3).
+        grey: The image that the mask was made of, shape (h, w).
+        levels: Below which each tile's pixels are dark.
+        points: For the result, pixels of the image, shape (n, 2).
+    """
+    for i in range(len(cracks)):
+        x, y, side = cracks[i, 0] - RIM_PX, cracks[i, 1] - RIM_PX, cracks[i, 2]
+        out_x, out_y = _OUT_X[side], _OUT_Y[side]
+        share = _crossing(grey, levels, x, y, out_x, out_y)
+        points[i, 0] = x + share * out_x
+        points[i, 1] = y + share * out_y
 
 
 @njit(cache=True, nogil=True)

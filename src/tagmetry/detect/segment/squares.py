@@ -2,7 +2,8 @@
 
 Half the scale halves the noise and costs a quarter: large markers are found there. Small ones need
 every pixel, the smallest are seen better between the pixels. Each scale looks with low, middle and
-high levels of dark: borders that touch dim clutter need a low one, faint borders a high one.
+high levels of dark: borders that touch dim clutter need a low one, faint borders a high one. A
+glance does with the middle level, which finds almost all markers that stand alone.
 """
 
 from collections.abc import Iterator
@@ -12,7 +13,8 @@ import cv2
 import numpy as np
 
 from tagmetry.detect.segment.distinct import distinct
-from tagmetry.detect.segment.look import Look, Tiled, dark_squares
+from tagmetry.detect.segment.look import Look, dark_squares
+from tagmetry.detect.segment.tiles import Tiles
 from tagmetry.geometry.arrays import Array, BoolArray, GreyPixels
 
 _FULL_BELOW_PX = 32.0  # the full image is looked at where sides may be shorter than this
@@ -21,6 +23,9 @@ _LEAST_IMAGE_PX = 8
 _SLACK = 0.9  # blur rounds corners off, so that squares look smaller at first
 _LEVELS = Look(0.35), Look(0.5), Look(0.7)
 _THIN = Look(0.5, thinned=True)
+_GLANCE = Look(0.5, step_share=0.55)
+_GLANCE_AT_SMALL = Look(0.5, step_share=0.55, most_px=48.0)
+_Plan = dict[float, tuple[Look, ...]]  # the looks at each scale
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +40,17 @@ class Squares:
     corners_px: Array
     is_bright: BoolArray
 
+    def moved(self, right_px: int, down_px: int) -> "Squares":
+        """Return them in an image that this one was cut out of."""
+        return Squares(self.corners_px + np.array([right_px, down_px]), self.is_bright)
+
+    def joined(self, more: "Squares") -> "Squares":
+        """Return these and more."""
+        return Squares(
+            np.concatenate([self.corners_px, more.corners_px]),
+            np.concatenate([self.is_bright, more.is_bright]),
+        )
+
 
 def squares(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
     """Return outlines with four sides; squares that two looks saw differently are there twice.
@@ -44,39 +60,53 @@ def squares(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
         min_side_px: Sides shorter than this are passed over.
         bright: Bright squares on dark as well.
     """
-    dark_px = _seen(grey, min_side_px)
-    if not bright:
-        return Squares(dark_px, np.zeros(len(dark_px), dtype=bool))
-    bright_px = _seen(np.asarray(255 - grey, dtype=np.uint8), min_side_px)
-    is_bright = np.repeat([False, True], [len(dark_px), len(bright_px)])
-    return Squares(np.concatenate([dark_px, bright_px]), is_bright)
+    return _both(grey, min_side_px, _plan(min_side_px), bright)
 
 
-def _seen(grey: GreyPixels, min_side_px: float) -> Array:
-    """Return the dark squares of all looks, those alike once, shape (n, 4, 2)."""
-    corners_px = np.concatenate(list(_looks(grey, min_side_px)))
-    return corners_px[distinct(corners_px)]
+def squares_at_a_glance(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
+    """Return most of what `squares` returns, in a fraction of its time."""
+    plan: _Plan = {0.5: (_GLANCE,), 1.0: (_GLANCE_AT_SMALL,)}
+    if min_side_px >= _FULL_BELOW_PX:
+        del plan[1.0]
+    return _both(grey, min_side_px, plan, bright)
 
 
-def _looks(grey: GreyPixels, min_side_px: float) -> Iterator[Array]:
-    """Give the dark squares of each look, pixels of the image."""
-    yield np.empty((0, 4, 2))
-    for scale, looks in _plan(min_side_px).items():
-        if scale * min(grey.shape) >= _LEAST_IMAGE_PX:
-            tiled = Tiled.of(_scaled(grey, scale))
-            for look in looks:
-                corners = dark_squares(tiled, look, _SLACK * scale * min_side_px)
-                yield (corners + 0.5) / scale - 0.5
-
-
-def _plan(min_side_px: float) -> dict[float, tuple[Look, ...]]:
-    """Return the looks at each scale."""
+def _plan(min_side_px: float) -> _Plan:
+    """Return all looks that may find something."""
     plan = {0.5: _LEVELS, 1.0: (*_LEVELS, _THIN), 2.0: _LEVELS}
     if min_side_px >= _FULL_BELOW_PX:
         return {0.5: (*_LEVELS, _THIN)}
     if min_side_px >= _DOUBLE_BELOW_PX:
         del plan[2.0]
     return plan
+
+
+def _both(grey: GreyPixels, min_side_px: float, plan: _Plan, bright: bool) -> Squares:
+    """Return the dark squares, and the bright ones if wanted: the dark ones of the negative."""
+    dark_px = _seen(grey, min_side_px, plan)
+    if not bright:
+        return Squares(dark_px, np.zeros(len(dark_px), dtype=bool))
+    bright_px = _seen(np.asarray(255 - grey, dtype=np.uint8), min_side_px, plan)
+    is_bright = np.repeat([False, True], [len(dark_px), len(bright_px)])
+    return Squares(np.concatenate([dark_px, bright_px]), is_bright)
+
+
+def _seen(grey: GreyPixels, min_side_px: float, plan: _Plan) -> Array:
+    """Return the dark squares of all looks, those alike once, shape (n, 4, 2)."""
+    corners_px = np.concatenate(list(_looks(grey, min_side_px, plan)))
+    return corners_px[distinct(corners_px)]
+
+
+def _looks(grey: GreyPixels, min_side_px: float, plan: _Plan) -> Iterator[Array]:
+    """Give the dark squares of each look, pixels of the image."""
+    yield np.empty((0, 4, 2))
+    for scale, looks in plan.items():
+        if scale * min(grey.shape) >= _LEAST_IMAGE_PX:
+            scaled = _scaled(grey, scale)
+            tiles = Tiles.of(scaled)
+            for look in looks:
+                corners = dark_squares(scaled, tiles, look, _SLACK * scale * min_side_px)
+                yield (corners + 0.5) / scale - 0.5
 
 
 def _scaled(grey: GreyPixels, scale: float) -> GreyPixels:

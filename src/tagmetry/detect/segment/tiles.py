@@ -9,6 +9,8 @@ The gate follows the noise: a good part of most images is plain, so a low quanti
 ranges tells how far noise alone takes them.
 """
 
+from dataclasses import dataclass
+
 import cv2
 import numpy as np
 from numba import njit
@@ -23,37 +25,71 @@ _PLAIN_SHARE = 0.25  # of the tiles are taken to show nothing but noise
 _NOISE_REACH = 2.4  # ranges of nine tiles of noise are hardly ever more times that of one
 
 
-def levels(
-    darkest: GreyPixels, brightest: GreyPixels, gate: float, share: float = 0.5
-) -> GreyPixels:
-    """Return the grey value of each tile below which its pixels are dark; 0 in plain tiles.
+@dataclass(frozen=True, eq=False)
+class Extremes:
+    """The darkest and the brightest value around each tile, shapes (rows, columns)."""
 
-    Args:
-        darkest: Of each tile, shape (rows, columns).
-        brightest: Of each tile.
-        gate: The least difference, grey values.
-        share: Where between darkest and brightest the level lies, 0 to 1.
+    darkest: GreyPixels
+    brightest: GreyPixels
+
+    @property
+    def ranges(self) -> GreyPixels:
+        """How far they are apart."""
+        return np.asarray(cv2.subtract(self.brightest, self.darkest), dtype=np.uint8)
+
+    def around(self, tiles: int) -> "Extremes":
+        """Return the extremes of squares of `tiles` by `tiles` around each tile."""
+        square = np.ones((tiles, tiles), np.uint8)
+        low, high = cv2.erode(self.darkest, square), cv2.dilate(self.brightest, square)
+        return Extremes(np.asarray(low, dtype=np.uint8), np.asarray(high, dtype=np.uint8))
+
+
+@dataclass(frozen=True, eq=False)
+class Tiles:
+    """What is around each tile of an image.
+
+    Attributes:
+        near: The extremes of the tile and its neighbours.
+        wide: The extremes of the tiles farther around.
+        gate: The least difference of grey values that is not noise.
     """
-    near = _levels(darkest, brightest, gate, share, _NEAR_TILES)
-    wide = _levels(darkest, brightest, _WIDE_GATE * gate, share, _WIDE_TILES)
-    return np.where(near == 0, wide, near)
+
+    near: Extremes
+    wide: Extremes
+    gate: float
+
+    @classmethod
+    def of(cls, grey: GreyPixels) -> "Tiles":
+        """Cut an image (h, w), both at least 4, into tiles."""
+        own = Extremes(*tile_extremes(grey))
+        return cls(own.around(_NEAR_TILES), own.around(_WIDE_TILES), noise_gate(own))
+
+    def least_steps(self, share: float) -> GreyPixels:
+        """Return a share of the range around each tile, grey values."""
+        return np.asarray(share * self.near.ranges, dtype=np.uint8)
+
+    def levels(self, share: float, gate: float) -> GreyPixels:
+        """Return the grey value of each tile below which its pixels are dark; 0 in plain tiles.
+
+        Args:
+            share: Where between darkest and brightest the level lies, 0 to 1.
+            gate: The least difference, grey values.
+        """
+        near = _levels(self.near, share, gate)
+        wide = _levels(self.wide, share, _WIDE_GATE * gate)
+        return np.where(near == 0, wide, near)
 
 
-def _levels(
-    darkest: GreyPixels, brightest: GreyPixels, gate: float, share: float, tiles: int
-) -> GreyPixels:
-    """Return the levels by the tiles around, a square of `tiles` by `tiles`."""
-    around = np.ones((tiles, tiles), np.uint8)
-    low, high = cv2.erode(darkest, around), cv2.dilate(brightest, around)
-    between = cv2.addWeighted(low, 1 - share, high, share, 0.5)
-    clear = cv2.compare(cv2.subtract(high, low), np.ceil(gate), cv2.CMP_GE)
+def _levels(extremes: Extremes, share: float, gate: float) -> GreyPixels:
+    between = cv2.addWeighted(extremes.darkest, 1 - share, extremes.brightest, share, 0.5)
+    clear = cv2.compare(extremes.ranges, np.ceil(gate), cv2.CMP_GE)
     return np.asarray(cv2.bitwise_and(between, clear), dtype=np.uint8)
 
 
-def noise_gate(darkest: GreyPixels, brightest: GreyPixels) -> float:
+def noise_gate(own: Extremes) -> float:
     """Return the difference of grey values that noise alone does not reach within nine tiles."""
-    ranges = np.bincount((brightest - darkest).ravel(), minlength=256)
-    plain = int(np.searchsorted(np.cumsum(ranges), _PLAIN_SHARE * darkest.size))
+    ranges = np.bincount(own.ranges.ravel(), minlength=256)
+    plain = int(np.searchsorted(np.cumsum(ranges), _PLAIN_SHARE * own.darkest.size))
     return max(_LEAST_GATE, _NOISE_REACH * plain)
 
 
@@ -61,7 +97,8 @@ def noise_gate(darkest: GreyPixels, brightest: GreyPixels) -> float:
 def tile_extremes(grey: GreyPixels) -> tuple[GreyPixels, GreyPixels]:
     """Return the darkest and the brightest value of each tile, shapes (rows, columns).
 
-    The last tiles are moved inward where the image is no multiple of a tile.
+    Where the image is no multiple of a tile, the last row of tiles is moved inward, and its last
+    column of pixels counts again.
 
     Args:
         grey: Shape (h, w), both at least 4.
@@ -70,13 +107,14 @@ def tile_extremes(grey: GreyPixels) -> tuple[GreyPixels, GreyPixels]:
     rows, columns = -(-height // TILE_PX), -(-width // TILE_PX)
     darkest = np.empty((rows, columns), np.uint8)
     brightest = np.empty((rows, columns), np.uint8)
-    low, high = np.empty(width, np.uint8), np.empty(width, np.uint8)
+    low, high = np.empty(TILE_PX * columns, np.uint8), np.empty(TILE_PX * columns, np.uint8)
     for row in range(rows):
         top = min(TILE_PX * row, height - TILE_PX)
         a, b, c, d = grey[top], grey[top + 1], grey[top + 2], grey[top + 3]
         for x in range(width):
             low[x] = min(a[x], b[x], c[x], d[x])
             high[x] = max(a[x], b[x], c[x], d[x])
+        low[width:], high[width:] = low[width - 1], high[width - 1]
         _of_fours(low, high, darkest[row], brightest[row])
     return darkest, brightest
 
@@ -85,9 +123,8 @@ def tile_extremes(grey: GreyPixels) -> tuple[GreyPixels, GreyPixels]:
 def _of_fours(
     low: GreyPixels, high: GreyPixels, darkest: GreyPixels, brightest: GreyPixels
 ) -> None:
-    """Fill a row of tiles from the extremes (w,) of its columns of pixels."""
-    last = low.size - TILE_PX
-    for column in range(darkest.size):
-        x = min(TILE_PX * column, last)
-        darkest[column] = min(low[x], low[x + 1], low[x + 2], low[x + 3])
-        brightest[column] = max(high[x], high[x + 1], high[x + 2], high[x + 3])
+    """Fill a row of tiles from the extremes of its columns of pixels, four for each tile."""
+    for i in range(darkest.size):
+        k = TILE_PX * i
+        darkest[i] = min(low[k], low[k + 1], low[k + 2], low[k + 3])
+        brightest[i] = max(high[k], high[k + 1], high[k + 2], high[k + 3])

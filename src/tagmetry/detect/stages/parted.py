@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 
 from tagmetry.detect.segment.mask import RIM_PX, dark_mask
-from tagmetry.detect.segment.tiles import TILE_PX, levels, noise_gate, tile_extremes
+from tagmetry.detect.segment.tiles import TILE_PX, Tiles
 from tagmetry.geometry.arrays import Array, BoolArray, GreyPixels, IntArray
 
 _SHARE = 0.5
@@ -47,9 +47,8 @@ def parted(grey: GreyPixels, min_side_px: float) -> Parted:
     """Return the dark areas of an image; `min_side_px` is the least side of a marker in it."""
     scale = 0.5 if min(grey.shape) >= 4 * _LEAST_TILED_PX else 1.0
     seen = _halved(grey) if scale < 1 else grey
-    darkest, brightest = tile_extremes(seen)
-    gate = noise_gate(darkest, brightest)
-    level = levels(darkest, brightest, gate, _SHARE)
+    tiles = Tiles.of(seen)
+    gate, level = tiles.gate, tiles.levels(_SHARE, tiles.gate)
     height, width = seen.shape
     mask = dark_mask(seen, level)[RIM_PX : RIM_PX + height, RIM_PX : RIM_PX + width]
     boxes, outlines = _areas(mask)
