@@ -254,7 +254,7 @@ STRONG = [
     "6x6_250",
     "7x7_250",
 ]
-WEAK_AT_MOST = {"4x4_50": 0, "4x4_100": 0, "4x4_250": 1, "4x4_1000": 6, "aruco_original": 4}
+OPENCV_FINDS = {"4x4_50": 1, "4x4_100": 1, "4x4_250": 2, "4x4_1000": 4, "aruco_original": 4}
 
 
 def test_no_marker_in_photographs_without_any() -> None:
@@ -272,9 +272,9 @@ def test_no_marker_of_any_strong_family_in_photographs(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", WEAK_AT_MOST)
+@pytest.mark.parametrize("name", OPENCV_FINDS)
 def test_few_markers_of_a_weak_family_in_photographs(name: str) -> None:
-    """Sixteen bits and a thousand codes: chance finds some; the bound is the count of today."""
+    """Sixteen bits and a thousand codes: chance finds some, OpenCV 5.0 those of the list."""
     detector = Detector([name])
     found = sum(len(detector.detect(grey(p))) for p in pictures("marker_free", "**/*.jpg"))
-    assert found <= WEAK_AT_MOST[name]
+    assert found <= OPENCV_FINDS[name] / 3

@@ -4,15 +4,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numba import njit
 
 from tagmetry.detect.decode import Match, Reading, has_border, has_outline, nearest
 from tagmetry.detect.detection import Detection, Rejection
+from tagmetry.detect.sample import side_lengths
 from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import BoolArray
 from tagmetry.markers import MarkerFamily
 
 _LEAST_CONFIDENCE = 0.3
+_WEAK_CHANCE = 1e-4  # families that random bits pass for more often must be read clearly
+_LEAST_OF_WEAK = 0.85
 _SAME_PLACE = 0.5  # centres closer than this share of a side, and sides alike, are one place
 _ALIKE = 1.6
+_TURNED = np.array([[0, 1, 2, 3], [1, 2, 3, 0], [2, 3, 0, 1], [3, 0, 1, 2]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,9 +86,9 @@ class Rules:
                 f"nearest code is {match.family.name} id {match.id} with {match.hamming} wrong "
                 f"bits, {self._forgiven(match.family)} are forgiven"
             )
-        if match.confidence < _LEAST_CONFIDENCE:
+        if match.confidence < _least_confidence(match.family):
             return f"{match.family.name} id {match.id} is too unclear ({match.confidence:.2f})"
-        upright_px = np.roll(corners_px, -match.quarters, axis=0)
+        upright_px = corners_px[_TURNED[match.quarters]]
         return Candidate(upright_px, match, reading.contrast < 0, reading.sharp_outline)
 
     def _not_a_marker(self, reading: Reading, is_inverted: bool) -> str | None:
@@ -99,6 +105,11 @@ class Rules:
 
     def _forgiven(self, family: MarkerFamily) -> int:
         return family.forgiven_bits if self.forgive_bits is None else self.forgive_bits
+
+
+def _least_confidence(family: MarkerFamily) -> float:
+    weak = family.chance_of_random_match(wrong_bits=0) > _WEAK_CHANCE
+    return _LEAST_OF_WEAK if weak else _LEAST_CONFIDENCE
 
 
 def best_per_place(candidates: Sequence[Candidate]) -> list[Candidate]:
@@ -131,14 +142,31 @@ def _first_per_place(squares_px: Sequence[Array]) -> list[int]:
     if not squares_px:
         return []
     corners = np.stack(squares_px)
-    centres = corners.mean(axis=1)
-    sides_px = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).mean(axis=1)
-    free = np.ones(len(corners), dtype=bool)
-    first = []
-    for i in range(len(corners)):
-        if free[i]:
-            first.append(i)
-            smaller, larger = np.minimum(sides_px, sides_px[i]), np.maximum(sides_px, sides_px[i])
-            near = np.linalg.norm(centres - centres[i], axis=1) < _SAME_PLACE * smaller
-            free &= ~(near & (larger < _ALIKE * smaller))
+    return [
+        int(i) for i in np.flatnonzero(first_per_place(corners.mean(axis=1), sides_px(corners)))
+    ]
+
+
+def sides_px(corners_px: Array) -> Array:
+    """Return the mean side of squares (n, 4, 2), shape (n,), pixels."""
+    return np.asarray(side_lengths(corners_px).mean(axis=1))
+
+
+@njit(cache=True, nogil=True)
+def first_per_place(centres_px: Array, sides_px: Array) -> BoolArray:
+    """Say of each square (n,) whether no earlier first one stands in its place.
+
+    Args:
+        centres_px: Shape (n, 2).
+        sides_px: Shape (n,).
+    """
+    first = np.ones(len(sides_px), np.bool_)
+    for i in range(len(sides_px)):
+        for k in range(i):
+            apart_x, apart_y = centres_px[i] - centres_px[k]
+            smaller, larger = min(sides_px[i], sides_px[k]), max(sides_px[i], sides_px[k])
+            near = np.hypot(apart_x, apart_y) < _SAME_PLACE * smaller
+            if first[k] and near and larger < _ALIKE * smaller:
+                first[i] = False
+                break
     return first

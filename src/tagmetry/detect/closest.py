@@ -1,8 +1,9 @@
-"""Which code differs from what was read in the fewest bits?"""
+"""Which code differs from what was read in the fewest bits, and how clearly was it read?"""
 
 import numpy as np
 from numba import njit
 
+from tagmetry.geometry.arrays import Array
 from tagmetry.markers.packed import Words
 
 _PAIRS = np.uint64(0x5555555555555555)
@@ -37,3 +38,20 @@ def _count(word: np.uint64) -> int:
     word = (word & _FOURS) + ((word >> _TWO) & _FOURS)
     word = (word + (word >> _FOUR)) & _EIGHTS
     return int((word * _ONES) >> _TOP)
+
+
+@njit(cache=True, nogil=True)
+def clearness(margins: Array, code: Words) -> float:
+    """Return the mean margin of a code's bits, each at most 1; those read wrong count against.
+
+    Args:
+        margins: How clearly each bit reads as white, shape (bits,).
+        code: What should be read, in words.
+    """
+    octets = code.view(np.uint8)
+    total = 0.0
+    for k in range(margins.size):
+        is_white = octets[k // 8] >> (7 - k % 8) & 1
+        right = margins[k] if is_white else -margins[k]
+        total += min(max(right, -1.0), 1.0)
+    return total / margins.size

@@ -11,7 +11,7 @@ from functools import cache
 
 import numpy as np
 
-from tagmetry.detect.closest import closest
+from tagmetry.detect.closest import clearness, closest
 from tagmetry.detect.sample import cell_means, side_lengths, steps_across
 from tagmetry.geometry import Array, square_to_quad
 from tagmetry.geometry.arrays import BoolArray, GreyPixels
@@ -86,8 +86,8 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | 
     reach = _TAP_CELLS / layout.side_cells
     black_at, white_at = _places(layout)
     black, white = (cell_means(grey, H, at, reach) for at in (black_at, white_at))
-    at = np.concatenate([_frame(layout), layout.bit_centres])
-    dark, bright = _plane(black_at, black, at), _plane(white_at, white, at)
+    to_dark, to_bright = _planes(layout)
+    dark, bright = black @ to_dark, white @ to_bright
     contrast = (bright - dark).mean(axis=1)
     half = np.where(np.abs(contrast) < _LEAST_CONTRAST, np.nan, contrast / 2)
     middle, count = (dark + bright) / 2, len(_frame(layout))
@@ -126,19 +126,17 @@ def _outlines(
 def nearest(reading: Reading, family: MarkerFamily) -> Match:
     """Return the marker of a family that differs in the fewest bits."""
     index, hamming = closest(reading.words, family.packed_codes)
-    bits = len(reading.margins)
     quarters, marker_id = divmod(index, len(family))
-    expected = family.codes[marker_id][family.layout.rotations[quarters]]
-    right = np.where(expected, reading.margins, -reading.margins)
-    clear = np.minimum(np.maximum(right, -1), 1).mean()
+    bits = len(reading.margins)
     share = bits / (bits + len(_frame(family.layout)))
+    clear = clearness(reading.margins, family.packed_codes[index])
     confidence = share * clear + (1 - share) * reading.border_margin
     return Match(
         family,
         id=marker_id,
         quarters=quarters,
         hamming=hamming,
-        confidence=float(min(max(confidence, 0.0), 1.0)),
+        confidence=min(max(confidence, 0.0), 1.0),
     )
 
 
@@ -196,8 +194,14 @@ def _sharpening(layout: Layout) -> Array:
     return np.asarray(own * (1 + _SHARPEN * beside.sum(axis=1))[:, None] - _SHARPEN * beside)
 
 
-def _plane(at: Array, values: Array, wanted: Array) -> Array:
-    """Fit planes to values (n, k) at places (k, 2) and return them at other places, (n, m)."""
-    design = np.column_stack([np.ones(len(at)), at - 0.5])
-    coefficients = values @ np.linalg.pinv(design).T
-    return np.asarray(coefficients @ np.column_stack([np.ones(len(wanted)), wanted - 0.5]).T)
+@cache
+def _planes(layout: Layout) -> tuple[Array, Array]:
+    """Return what takes black and white (n, k) to planes through them at frame and bits, (k, m)."""
+    wanted = _plane_terms(np.concatenate([_frame(layout), layout.bit_centres]))
+    black, white = (np.linalg.pinv(_plane_terms(at)).T @ wanted.T for at in _places(layout))
+    return black, white
+
+
+def _plane_terms(at: Array) -> Array:
+    """Return 1, u and v from the middle of each place (n, 2), shape (n, 3)."""
+    return np.column_stack([np.ones(len(at)), at - 0.5])

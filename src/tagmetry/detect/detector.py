@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from tagmetry.camera import Camera
+from tagmetry.detect.again import Box, again
 from tagmetry.detect.choose import (
     Candidate,
     Rules,
@@ -22,13 +23,15 @@ from tagmetry.detect.detection import Detection, Findings, Rejection
 from tagmetry.detect.exact import exact_corners
 from tagmetry.detect.expected import expected_picture
 from tagmetry.detect.grey import grey_8bit
-from tagmetry.detect.segment import squares
+from tagmetry.detect.segment import Squares, squares, squares_at_a_glance
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import AnyPixels, GreyPixels
 from tagmetry.markers import Layout, MarkerFamily, family
 
 _BORDER_PX = 2.0
+_SMALL_IMAGE_PX = 700_000  # up to here all looks are taken at once
+_LOOKS_AGAIN = 3
 
 
 class Detector:
@@ -70,13 +73,13 @@ class Detector:
                 makes of them.
         """
         grey = self._checked(image, camera)
-        candidates, _ = self._judged(grey, all_squares=self.rules.inverted)
-        return _detections(grey, best_per_place(candidates), camera)
+        return _detections(grey, best_per_place(self._candidates(grey)), camera)
 
     def explain(self, image: AnyPixels, camera: Camera | None = None) -> Findings:
         """Return the markers, and the squares that were turned down, each with the reason."""
         grey = self._checked(image, camera)
-        candidates, rejections = self._judged(grey, all_squares=True)
+        found = squares(grey, self.min_side_px or default_min_side_px(grey.size), bright=True)
+        candidates, rejections = self._judged(grey, found, all_squares=True)
         detections = _detections(grey, best_per_place(candidates), camera)
         return Findings(detections, distinct_rejections(rejections, detections))
 
@@ -94,17 +97,38 @@ class Detector:
             grouped.setdefault(one.layout, []).append(one)
         return grouped
 
-    def _judged(
-        self, grey: GreyPixels, *, all_squares: bool
-    ) -> tuple[list[Candidate], list[Rejection]]:
-        """Read the image's squares in every layout: those of its border's colour, or all."""
+    def _candidates(self, grey: GreyPixels) -> list[Candidate]:
+        """Return what reads as a marker: at a glance, then thoroughly where that is worth it."""
+        bright = self.rules.inverted or self._has_white_borders
         least_px = self.min_side_px or default_min_side_px(grey.size)
-        white_borders = any(layout.white_border for layout in self._families_by_layout)
-        found = squares(grey, least_px, bright=all_squares or white_borders)
+        if grey.size <= _SMALL_IMAGE_PX:
+            return self._judged(grey, squares(grey, least_px, bright=bright))[0]
+        found = squares_at_a_glance(grey, least_px, bright=bright)
+        candidates, _ = self._judged(grey, found)
+        looked_at = Box(0, 0, 0, 0)
+        for _ in range(_LOOKS_AGAIN):
+            markers_px = np.array([one.corners_px for one in candidates]).reshape(-1, 4, 2)
+            box = again(markers_px, found.corners_px, grey.shape)
+            if box is None or looked_at.holds(box):
+                break
+            part = np.ascontiguousarray(grey[box.rows_and_columns])
+            more = squares(part, least_px, bright=bright).moved(box.left_px, box.top_px)
+            candidates = candidates + self._judged(grey, more)[0]
+            found, looked_at = found.joined(more), box
+        return candidates
+
+    @cached_property
+    def _has_white_borders(self) -> bool:
+        return any(layout.white_border for layout in self._families_by_layout)
+
+    def _judged(
+        self, grey: GreyPixels, found: Squares, *, all_squares: bool = False
+    ) -> tuple[list[Candidate], list[Rejection]]:
+        """Read squares in every layout: those of its border's colour, or all."""
         candidates: list[Candidate] = []
         rejections: list[Rejection] = []
         for layout, families in self._families_by_layout.items():
-            here = all_squares | (found.is_bright == layout.white_border)
+            here = all_squares | self.rules.inverted | (found.is_bright == layout.white_border)
             corners_px, is_bright = found.corners_px[here], found.is_bright[here]
             readings = read(grey, corners_px, layout)
             for corners, bright, reading in zip(corners_px, is_bright, readings, strict=True):

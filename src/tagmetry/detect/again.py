@@ -1,0 +1,73 @@
+"""Where a second, thorough look is worth its time.
+
+Markers that stand alone are found at a glance. Those of boards may touch each other or what lies
+between them, so where many markers have neighbours it is looked for more around these. Where there
+is no marker, or far more squares than markers, something about them may be hard to see: it is
+looked everywhere.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tagmetry.detect.sample import side_lengths
+from tagmetry.geometry import Array
+
+_NEAR = 0.75, 1.6  # from centre to centre by the marker's side; closer is within it
+_UNREAD = 2  # as many other squares for each marker are far more
+_OF_A_SIZE = 0.2, 2.5  # a neighbour's side by the marker's
+_OF_BOARDS = 0.25  # so many of the markers have neighbours where there are boards
+_AROUND = 2.0  # sides around them that are looked at again
+
+
+@dataclass(frozen=True)
+class Box:
+    """A part of an image, whole pixels, its ends left out."""
+
+    left_px: int
+    top_px: int
+    right_px: int
+    bottom_px: int
+
+    @property
+    def rows_and_columns(self) -> tuple[slice, slice]:
+        """What cuts it out of an image."""
+        return slice(self.top_px, self.bottom_px), slice(self.left_px, self.right_px)
+
+    def holds(self, other: "Box") -> bool:
+        """Say whether another box lies within this one."""
+        return (
+            self.left_px <= other.left_px
+            and self.top_px <= other.top_px
+            and self.right_px >= other.right_px
+            and self.bottom_px >= other.bottom_px
+        )
+
+
+def again(markers_px: Array, squares_px: Array, shape: tuple[int, int]) -> Box | None:
+    """Return where to look again; None when it is not worth it.
+
+    Args:
+        markers_px: Corners of the markers found so far, shape (m, 4, 2).
+        squares_px: Corners of all squares found so far, shape (n, 4, 2).
+        shape: Height and width of the image.
+    """
+    height, width = shape
+    sides = side_lengths(markers_px).mean(axis=1)[:, None]
+    ratio = side_lengths(squares_px).mean(axis=1) / sides
+    apart = squares_px.mean(axis=1) - markers_px.mean(axis=1)[:, None]
+    apart_by_side = np.linalg.norm(apart, axis=2) / sides
+    unread = (apart_by_side > _NEAR[0]).all(axis=0).sum()
+    if unread >= _UNREAD * len(markers_px):
+        return Box(0, 0, width, height)
+    near = (apart_by_side > _NEAR[0]) & (apart_by_side < _NEAR[1])
+    near &= (ratio > _OF_A_SIZE[0]) & (ratio < _OF_A_SIZE[1])
+    crowded = near.any(axis=1)
+    if crowded.sum() < _OF_BOARDS * len(markers_px) or not crowded.any():
+        return None
+    around = _AROUND * sides[crowded]
+    low = (markers_px[crowded].min(axis=1) - around).min(axis=0)
+    high = (markers_px[crowded].max(axis=1) + around).max(axis=0)
+    left, top = np.maximum(low, 0).astype(int).tolist()
+    right, bottom = np.minimum(high + 1, [width, height]).astype(int).tolist()
+    return Box(left, top, right, bottom)
