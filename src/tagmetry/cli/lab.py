@@ -108,4 +108,5 @@ def _run(sweep: "Sweep", workers: "Workers") -> None:
     count = len(sweep.cases)
     typer.echo(f"{sweep.experiment.name}: {todo} of {count} cases measured now -> {result}")
     told = chapter(sweep.experiment, sweep.home).conclusions
-    typer.echo("\n".join(f"  {line}" for line in check_lines(told.checks)))
+    for line in check_lines(told.checks):
+        typer.echo(f"  {line}")

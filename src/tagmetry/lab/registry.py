@@ -8,6 +8,9 @@ from tagmetry.files.plain import shortened
 from tagmetry.lab.experiment import Experiment
 
 _HOMES = {
+    "seed002-yaw": "seed002_yaw",
+    "seed002-tilt": "seed002_tilt",
+    "seed002-zones": "seed002_zones",
     "seed003-calibration": "seed003_calibration",
     "seed003-pose": "seed003_pose",
 }

@@ -35,7 +35,7 @@ class Case:
 
 def cases(quick: bool) -> tuple[Case, ...]:
     """Return both methods, each as often as it is repeated."""
-    repeats = range(1 if quick else 20)
+    repeats = range(1 if quick else 8)
     return tuple(Case(method, repeat) for repeat in repeats for method in METHODS)
 
 

@@ -5,6 +5,7 @@ Results of another setting, version or text of the experiment thus never mix wit
 
 import hashlib
 import json
+import re
 from dataclasses import asdict
 from functools import lru_cache
 from importlib import import_module
@@ -12,8 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from tagmetry import __version__
-from tagmetry.lab import rigs
 from tagmetry.lab.experiment import Experiment, Record
+
+_RIG = re.compile(r"^from (tagmetry\.lab\.rigs\.\w+) import", re.MULTILINE)
 
 
 def settings_json(case: Record) -> str:
@@ -34,10 +36,9 @@ def case_seed(experiment: Experiment[Any, Any], case: Record, seed: int) -> int:
 
 @lru_cache
 def _source(module: str) -> str:
-    """Return the text of an experiment and of all rigs, as a change of either changes results."""
-    own = Path(import_module(module).__file__ or "")
-    files = [own, *sorted(Path(rigs.__path__[0]).glob("*.py"))]
-    return "".join(file.read_text("utf-8") for file in files)
+    """Return the text of a module and of all rigs that it needs: their changes change results."""
+    text = Path(import_module(module).__file__ or "").read_text("utf-8")
+    return text + "".join(map(_source, sorted(set(_RIG.findall(text)))))
 
 
 def _digest(*parts: str) -> str:

@@ -1,0 +1,128 @@
+"""Repeated measurements: picked by their settings, and their mean with a confidence interval."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from scipy.stats import t as student
+
+from tagmetry.geometry import Array
+from tagmetry.lab.rows import Localization
+
+
+@dataclass(frozen=True)
+class Mean:
+    """A mean with its 95 % confidence interval by Student's t; NaN where there are too few.
+
+    Attributes:
+        mean: Of all values that are numbers.
+        half: Half the width of the interval.
+        count: How many values are numbers.
+        missing: How many are not.
+    """
+
+    mean: float
+    half: float
+    count: int
+    missing: int
+
+    @property
+    def low(self) -> float:
+        """Lower end of the interval."""
+        return self.mean - self.half
+
+    @property
+    def high(self) -> float:
+        """Upper end of the interval."""
+        return self.mean + self.half
+
+
+def rounded(value: float) -> float:
+    """Return a number to three digits, as no more of it is known."""
+    return float(f"{value:.3g}")
+
+
+def mean_of(values: Array) -> Mean:
+    """Return the mean of values (n,); those that are NaN are counted as missing."""
+    known = values[np.isfinite(values)]
+    missing = len(values) - len(known)
+    if len(known) == 0:
+        return Mean(np.nan, np.nan, 0, missing)
+    if len(known) == 1:
+        return Mean(float(known[0]), np.nan, 1, missing)
+    half = student.ppf(0.975, len(known) - 1) * known.std(ddof=1) / np.sqrt(len(known))
+    return Mean(float(known.mean()), float(half), len(known), missing)
+
+
+def found_of(mean: Mean) -> str:
+    """Return of how many pictures there is a value."""
+    return f"{mean.count} of {mean.count + mean.missing}"
+
+
+def difference(more: Array, less: Array) -> Mean:
+    """Return the mean of `more` less that of `less`, with Welch's confidence interval."""
+    a, b = more[np.isfinite(more)], less[np.isfinite(less)]
+    va, vb = a.var(ddof=1) / len(a), b.var(ddof=1) / len(b)
+    freedom = (va + vb) ** 2 / (va**2 / (len(a) - 1) + vb**2 / (len(b) - 1))
+    half = student.ppf(0.975, freedom) * np.sqrt(va + vb)
+    missing = len(more) + len(less) - len(a) - len(b)
+    return Mean(float(a.mean() - b.mean()), float(half), len(a) + len(b), missing)
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Errors of localization, some of all that were measured."""
+
+    rows: tuple[Localization, ...]
+
+    def where(self, **settings: Any) -> "Sample":  # noqa: ANN401 (what a field may be)
+        """Return the rows whose fields are so."""
+        wanted = settings.items()
+        return Sample(
+            tuple(row for row in self.rows if all(getattr(row, k) == v for k, v in wanted))
+        )
+
+    def by(self, field: str) -> "dict[float, Sample]":
+        """Return the rows by the values of a field, in rising order."""
+        parts: dict[float, list[Localization]] = {}
+        for row in self.rows:
+            parts.setdefault(getattr(row, field), []).append(row)
+        return {value: Sample(tuple(parts[value])) for value in sorted(parts)}
+
+    def within(self, from_m: float, to_m: float) -> "Sample":
+        """Return the rows of distances between two, both included."""
+        return Sample(tuple(row for row in self.rows if from_m <= row.distance_m <= to_m))
+
+    def values(self, field: str) -> Array:
+        """Return a field of all rows; `angle_deg` and `abs_z_m` are those that people want."""
+        if field == "angle_deg":
+            return np.degrees(self.values("angle_rad"))
+        if field == "abs_z_m":
+            return np.abs(self.values("z_m"))
+        return np.array([getattr(row, field) for row in self.rows], dtype=np.float64)
+
+    def mean(self, field: str) -> Mean:
+        """Return the mean of a field."""
+        return mean_of(self.values(field))
+
+    @cached_property
+    def methods(self) -> tuple[str, ...]:
+        """The methods that were measured."""
+        return tuple(dict.fromkeys(row.method for row in self.rows))
+
+    @property
+    def ours(self) -> "Sample":
+        """The rows of tagmetry's best method: the joint one, where there is one."""
+        return self.where(method="joint" if "joint" in self.methods else "covariance")
+
+    @property
+    def paper(self) -> "Sample":
+        """The rows of the paper's method with its own corners."""
+        return self.where(method="paper, 1 / distance")
+
+
+def sample(rows: Sequence[Localization]) -> Sample:
+    """Return rows as a sample."""
+    return Sample(tuple(rows))
