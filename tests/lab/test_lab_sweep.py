@@ -17,7 +17,7 @@ from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.lab.results import Origin, read_origin, read_rows, write_rows
 from tagmetry.lab.sweep import Sweep, Workers, cluster_workers, local_workers, run
 from tagmetry.lab.sweep.measuring import Measured
-from tagmetry.lab.sweep.name import case_name, case_seed
+from tagmetry.lab.sweep.name import _source, case_name, case_seed
 
 pytest.importorskip("pyarrow")
 
@@ -212,3 +212,10 @@ def test_without_dask_the_extra_is_named(monkeypatch) -> None:
         cluster_workers("tcp://127.0.0.1:1"),
     ):
         pass
+
+
+def test_the_text_of_an_experiment_and_of_its_own_rigs_counts() -> None:
+    text = _source("tagmetry.lab.experiments.seed003_pose")
+    assert "def board_poses()" in text  # of a rig's rig
+    assert "def solved_webcam(" in text
+    assert "class Stand" not in text  # of another experiment's

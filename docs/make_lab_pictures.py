@@ -1,0 +1,29 @@
+"""Draw the laboratory's figures for the docs from its results: make_lab_pictures.py lab-results."""
+
+import sys
+from pathlib import Path
+
+from tagmetry.lab.report.chapter import chapters
+
+IMAGES = Path(__file__).parent / "images" / "lab"
+DRAWN = (
+    "seed002_sights",
+    "seed002_figure4",
+    "seed002_figure17",
+    "seed003_figure12",
+    "seed003_figure23",
+)
+DPI = 80
+
+
+def main(results: Path) -> None:
+    IMAGES.mkdir(parents=True, exist_ok=True)
+    for chapter in chapters(results):
+        for figure in chapter.conclusions.figures:
+            if figure.name in DRAWN:
+                target = IMAGES / f"{figure.name}.png"
+                figure.draw().savefig(target, dpi=DPI, metadata={"Software": None})
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
