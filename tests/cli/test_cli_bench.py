@@ -85,6 +85,8 @@ def test_refuses_to_draw_nothing(tmp_path: Path) -> None:
         (["--engine", "aruco9"], "unknown engine 'aruco9'; there are tagmetry, "),
         (["--family", "tag99"], "unknown marker family"),
         (["--images", "missing-*.png"], "no picture or video matches 'missing-*.png'"),
+        (["--images", "a.png", "--case", "none"], "leave out --case and --real"),
+        (["--images", "a.png", "--family", "tag99"], "unknown marker family"),
         (["--compare", "missing.json"], "missing.json: No such file"),
         (["--picture", "out.gif"], "ends in .png, found out.gif"),
         (["--threads", "0"], "--threads"),

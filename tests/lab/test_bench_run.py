@@ -187,6 +187,12 @@ def test_own_pictures_become_a_case(tmp_path: Path) -> None:
     assert (case.name, case.family, case.truths) == ("own", "4x4_50", None)
 
 
+def test_our_own_detector_knows_every_family() -> None:
+    ours = replace(kind(fake_engines.Good), families=None)
+    (only,) = run([Ready("light", (LIGHT,), family="tag36h11_border2")], [ours])
+    assert only.rows[0].engine == "fake"
+
+
 def test_of_many_pictures_some_are_taken_and_the_name_says_so(tmp_path: Path) -> None:
     for number in range(30):
         (tmp_path / f"{number}.png").touch()

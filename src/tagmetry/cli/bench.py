@@ -74,8 +74,11 @@ def _works(
     extent: "Extent", patterns: list[str], images: list[str], family: str, *, real: bool
 ) -> "list[Work]":
     """Return what to measure: one's own pictures, or rendered cases and on request real ones."""
+    from tagmetry.errors import InputError
     from tagmetry.lab.bench import fitting, own_pictures, renderings
 
+    if images and (patterns or real):
+        raise InputError("--images measures your own pictures only: leave out --case and --real")
     if images:
         return [own_pictures(images, family)]
     works = renderings("full" if patterns else extent, family)

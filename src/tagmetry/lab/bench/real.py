@@ -10,6 +10,7 @@ from tagmetry.detect.grey import grey_8bit
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.lab.bench.case import Case, Truth
+from tagmetry.markers import family as family_of
 from tagmetry.sources import read_picture
 from tagmetry.sources.paths import expand
 
@@ -67,8 +68,9 @@ def own_pictures(patterns: Sequence[str], family: str) -> Pictures:
     """Return pictures of one's own as a case.
 
     Raises:
-        InputError: There are none.
+        InputError: There are none, or no such family.
     """
+    family = family_of(family).name
     paths = [path for pattern in patterns for path in expand(pattern)]
     some = _some(paths)
     name = "own" if len(some) == len(paths) else f"own-{len(some)}-of-{len(paths)}"

@@ -25,7 +25,7 @@ class Team:
     def start(self, family: str) -> None:
         """Start all engines for a family, so that they are ready when the images are."""
         for kind in self._kinds:
-            if family in kind.families:
+            if kind.knows(family):
                 self._alive(kind, family)
 
     def members(self, case: Case) -> list[Child]:
@@ -33,7 +33,7 @@ class Team:
         return [
             self._alive(kind, case.family)
             for kind in self._kinds
-            if case.family in kind.families and (case.moves or not kind.tracks)
+            if kind.knows(case.family) and (case.moves or not kind.tracks)
         ]
 
     def close(self) -> None:

@@ -53,7 +53,7 @@ class EngineKind:
     Attributes:
         name: What it is called in tables and on the command line.
         maker: `module:function` that makes it, of (family, threads); imported where it runs.
-        families: Names of the families that it knows.
+        families: Names of the families that it knows; None for every one that we know.
         author: Who made the detector; agreement counts between authors, not between variants.
         needs: The module that must be installed for it.
         tracks: It follows markers from image to image, and is for moving pictures only.
@@ -61,10 +61,14 @@ class EngineKind:
 
     name: str
     maker: str
-    families: frozenset[str]
+    families: frozenset[str] | None
     author: str
     needs: str = "cv2"
     tracks: bool = False
+
+    def knows(self, family: str) -> bool:
+        """Say whether it can look for a family."""
+        return self.families is None or family in self.families
 
     def make(self, family: str, threads: int) -> Engine:
         """Return the engine for a family, which may use so many threads."""

@@ -5,7 +5,6 @@ from importlib.util import find_spec
 
 from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.lab.engines.engine import EngineKind
-from tagmetry.markers import family_names
 from tagmetry.markers.apriltag3 import APRILTAG3
 
 OURS = "tagmetry"
@@ -19,14 +18,8 @@ _APRILTAG = frozenset({"tag16h5", "tag25h9", "tag36h11", *APRILTAG3})
 _LOCUS = frozenset({"tag16h5", "tag36h11", "4x4_50", "4x4_100", "6x6_250", "aruco_mip_36h12"})
 
 KINDS = (
-    EngineKind(OURS, f"{_HERE}.own:WholeImage", frozenset(family_names()), "tagmetry"),
-    EngineKind(
-        TRACKER,
-        f"{_HERE}.tracker:Tracking",
-        frozenset(family_names()),
-        "tagmetry",
-        tracks=True,
-    ),
+    EngineKind(OURS, f"{_HERE}.own:WholeImage", None, "tagmetry"),
+    EngineKind(TRACKER, f"{_HERE}.tracker:Tracking", None, "tagmetry", tracks=True),
     EngineKind("opencv-none", f"{_HERE}.opencv:none", _ARUCO, "OpenCV"),
     EngineKind("opencv-subpix", f"{_HERE}.opencv:subpix", _ARUCO, "OpenCV"),
     EngineKind("opencv-contour", f"{_HERE}.opencv:contour", _ARUCO, "OpenCV"),
