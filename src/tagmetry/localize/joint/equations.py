@@ -128,6 +128,20 @@ def _rows(scene: Scene, m: int, R: Array, t: Array, rows: Array) -> bool:
 
 
 @kernel
+def fill_residuals(scene: Scene, m: int, R: Array, t: Array, r: Array) -> bool:
+    """Fill the residuals of one marker, not yet whitened, shape (8, 1); False if behind."""
+    for c in range(4):
+        p = scene.corners[m, c]
+        x, y, z = back(R, p[0] - t[0], p[1] - t[1], p[2] - t[2])
+        depth = p[9] * x + p[10] * y + p[11] * z
+        if not depth > _NEAREST:
+            return False
+        r[2 * c, 0] = (p[3] * x + p[4] * y + p[5] * z) / depth
+        r[2 * c + 1, 0] = (p[6] * x + p[7] * y + p[8] * z) / depth
+    return True
+
+
+@kernel
 def _fill_error(
     row: Array, anchor: Array, root: Array, p: Array, g: tuple[float, float, float]
 ) -> None:

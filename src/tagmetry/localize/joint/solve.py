@@ -21,7 +21,6 @@ from scipy.special import chdtri
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import RigidTransform
-from tagmetry.geometry.transforms import Rotation
 from tagmetry.localize.joint.consensus import CORNER_COST, MARKER_COST, Consensus, consensus
 from tagmetry.localize.joint.proposals import proposals
 from tagmetry.localize.joint.scene import scene_of
@@ -107,7 +106,7 @@ def _hypothesis(
     scale2 = 1.0 if _is_chance(chi2, freedom) else chi2 / freedom
     distances = np.sqrt(one.distances2)
     return CameraHypothesis(
-        RigidTransform.from_components(one.t, Rotation.from_matrix(one.R)),
+        _transform(one),
         np.asarray(np.linalg.inv(one.system[1:, 1:]) * scale2, dtype=np.float64),
         probability,
         tuple(key for key, agrees in zip(keys, one.agrees, strict=True) if agrees),
@@ -119,6 +118,12 @@ def _hypothesis(
         chi2,
         freedom,
     )
+
+
+def _transform(one: Consensus) -> RigidTransform:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = one.R, one.t
+    return RigidTransform.from_matrix(matrix)
 
 
 def _freedom(one: Consensus, known: Knowledge) -> int:
