@@ -1,12 +1,16 @@
 """What holds of every picture: families, turns, formats, repeats, borders, refusals and time."""
 
+import gc
 import time
+import tracemalloc
+from concurrent.futures import ThreadPoolExecutor
 
 import cv2
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 from rendered_markers import only, scene
 
 from tagmetry.camera import Camera
@@ -106,6 +110,131 @@ def test_a_marker_within_a_marker() -> None:
         ("4x4_50", 0),
         ("tag36h11", 5),
     ]
+
+
+def wide(*pieces: tuple[int, int, np.ndarray], ground: float = 200.0) -> np.ndarray:
+    """An image of a megapixel, which is looked at in stages, with pieces at (x, y)."""
+    picture = np.full((900, 1200), ground)
+    for x, y, piece in pieces:
+        picture[y : y + piece.shape[0], x : x + piece.shape[1]] = piece
+    noise = np.random.default_rng(0).normal(0, 2, picture.shape)
+    return np.clip(np.rint(picture + noise), 0, 255).astype(np.uint8)
+
+
+def tile(marker_id: int, cell_px: int, quiet_cells: int = 1) -> np.ndarray:
+    cells = np.pad(family("tag36h11").picture(marker_id), quiet_cells, constant_values=True)
+    return cv2.GaussianBlur(np.kron(cells, np.ones((cell_px, cell_px))) * 170 + 40, (0, 0), 0.7)
+
+
+def grid_with_dots(cell_px: int) -> np.ndarray:
+    """Three by three markers with black squares between that touch their corners, as Kalibr's."""
+    side, gap = 8 * cell_px, 3 * cell_px
+    sheet = np.full((4 * gap + 3 * side,) * 2, 210.0)
+    for row, column in np.ndindex(4, 4):
+        top, left = row * (side + gap), column * (side + gap)
+        sheet[top : top + gap, left : left + gap] = 40
+        if row < 3 and column < 3:
+            picture = family("tag36h11").picture(3 * row + column)
+            here = np.kron(picture, np.ones((cell_px, cell_px))) * 170 + 40
+            sheet[top + gap : top + gap + side, left + gap : left + gap + side] = here
+    return cv2.GaussianBlur(np.pad(sheet, 40, constant_values=210), (0, 0), 1.5)
+
+
+def test_markers_that_touch_their_neighbours_are_found_in_a_large_picture() -> None:
+    """The first glance sees them joined; so close to each other, they are looked at again."""
+    picture = wide((50, 50, grid_with_dots(6)))
+    assert [d.id for d in Detector().detect(picture)] == list(range(9))
+    with_others = wide(
+        (50, 50, grid_with_dots(6)), (900, 600, tile(20, 9)), (900, 100, tile(21, 4))
+    )
+    assert [d.id for d in Detector().detect(with_others)] == [*range(9), 20, 21]
+
+
+def test_a_marker_on_a_dark_ground_without_a_quiet_zone_is_not_seen() -> None:
+    """What is as dark as the border has no edge with it; on any brighter ground it has."""
+    no_zone = tile(5, 8, quiet_cells=0)
+    assert Detector().detect(wide((500, 400, no_zone), ground=40.0)) == ()
+    assert only(Detector().detect(wide((500, 400, no_zone), ground=120.0))).id == 5
+
+
+@pytest.mark.parametrize("covered_cells", [0, 2, 4])
+def test_dirt_on_the_bits_is_survived_up_to_what_the_code_corrects(covered_cells: int) -> None:
+    marker = tile(5, 8)
+    marker[24 : 24 + 8 * (covered_cells // 2), 24:40] = 210
+    assert only(Detector(forgive_bits=5).detect(wide((500, 400, marker)))).id == 5
+
+
+def test_a_covered_corner_moves_no_corner_by_much_or_the_marker_is_not_reported() -> None:
+    """A sheet over a corner, larger and larger: no corner is ever invented."""
+    corners = np.array([[8, 8], [72, 8], [72, 72], [8, 72]]) - 0.5 + np.array([500, 400])
+    found = []
+    for cover_px in range(0, 24, 3):
+        marker = tile(5, 8)
+        marker[: 8 + cover_px, : 8 + cover_px] = 210
+        seen = Detector(forgive_bits=5).detect(wide((500, 400, marker)))
+        found.append(len(seen))
+        for detection in seen:
+            np.testing.assert_allclose(detection.corners_px, corners, atol=1.0)
+    assert found[:2] == [1, 1]
+    assert found == sorted(found, reverse=True)
+
+
+def test_one_detector_serves_four_threads_at_once() -> None:
+    pictures = [wide((100 + 90 * k, 300, tile(k, 5 + k)), (700, 500, tile(9, 7))) for k in range(4)]
+    detector = Detector()
+    alone = [detector.detect(picture) for picture in pictures] * 3
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(detector.detect, pictures * 3))
+    for a, b in zip(alone, together, strict=True):
+        assert named(a) == named(b)
+        assert len(a) == 2
+        for one, other in zip(a, b, strict=True):
+            np.testing.assert_array_equal(one.corners_px, other.corners_px)
+
+
+def test_memory_is_the_same_after_many_images() -> None:
+    """Two thousand small ones, by what Python and NumPy hold."""
+    rng = np.random.default_rng(6)
+    pictures = [rng.integers(0, 256, (40 + k, 60 + k), dtype=np.uint8) for k in range(20)]
+    pictures.append(board(("tag36h11", 5), cell_px=4))
+    detector = Detector()
+    for picture in pictures:
+        detector.detect(picture)
+    tracemalloc.start()
+    for k in range(2000):
+        detector.detect(pictures[k % len(pictures)])
+        if k == 200:
+            gc.collect()
+            before = tracemalloc.get_traced_memory()[0]
+    gc.collect()
+    after = tracemalloc.get_traced_memory()[0]
+    tracemalloc.stop()
+    assert after - before < 100_000
+
+
+@pytest.mark.parametrize("dtype", [np.int8, np.int16, np.int32, np.uint32, np.int64, np.float16])
+def test_other_numbers_than_a_camera_gives_are_refused(dtype: type) -> None:
+    with pytest.raises(InputError, match="must hold uint8 or uint16 values"):
+        Detector().detect(np.zeros((64, 64), dtype))
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    picture=arrays(
+        st.sampled_from([np.dtype(np.uint8), np.dtype(np.uint16)]),
+        st.one_of(
+            st.tuples(st.integers(0, 24), st.integers(0, 24)),
+            st.tuples(st.integers(0, 12), st.integers(0, 12), st.integers(0, 5)),
+        ),
+    )
+)
+def test_arrays_of_any_shape_give_markers_or_words(picture: np.ndarray) -> None:
+    for form in (picture, picture[::2, ::-1], picture.T):
+        try:
+            found = Detector(["4x4_50"]).detect(form)
+        except InputError:
+            continue
+        assert all(np.isfinite(one.corners_px).all() for one in found)
 
 
 def test_every_form_of_an_array_gives_the_same() -> None:

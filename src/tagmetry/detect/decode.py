@@ -6,6 +6,7 @@ that falls off across the marker does no harm. Each bit is sharpened
 against the cells beside it: blur mixes neighbours, and single cells would drown in theirs first.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 
@@ -14,7 +15,7 @@ import numpy as np
 from tagmetry.detect.closest import clearness, closest
 from tagmetry.detect.sample import cell_means, side_lengths, steps_across
 from tagmetry.geometry import Array, square_to_quad
-from tagmetry.geometry.arrays import BoolArray, GreyPixels
+from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 from tagmetry.markers import Layout, MarkerFamily
 from tagmetry.markers.packed import Words, packed
 
@@ -29,7 +30,7 @@ _TAP_CELLS = 0.17  # how far from a cell's centre its four taps are
 
 @dataclass(frozen=True)
 class Reading:
-    """How one quadrilateral reads in one layout; without a border, only that it has none.
+    """How one quadrilateral reads in one layout; of one without a border no bits are read.
 
     Attributes:
         margins: Of each bit, (value - threshold) / half the contrast, shape (bits,); white is
@@ -52,6 +53,36 @@ class Reading:
     outline: float
 
 
+@dataclass(frozen=True, eq=False)
+class Readings:
+    """How n quadrilaterals read; None where black and white cannot be told apart.
+
+    Attributes:
+        margins: Those of each, shape (n, bits).
+        words: Those of each, shape (n, words).
+        measures: Border share, contrast, border margin, sharp outline, outline, shape (n, 5).
+    """
+
+    margins: Array
+    words: Words
+    measures: Array
+
+    def __len__(self) -> int:
+        return len(self.margins)
+
+    def __getitem__(self, i: int) -> Reading | None:
+        measures = self.measures[i].tolist()
+        return None if np.isnan(measures[1]) else Reading(self.margins[i], self.words[i], *measures)
+
+    def __iter__(self) -> Iterator[Reading | None]:
+        return (self[i] for i in range(len(self)))
+
+    @property
+    def bordered(self) -> IntArray:
+        """Which of them have a border, so that their bits were read, shape (k,)."""
+        return np.asarray(np.flatnonzero(self.measures[:, 0] >= 1 - _BORDER_ERRORS))
+
+
 @dataclass(frozen=True)
 class Match:
     """The nearest marker of a family.
@@ -71,7 +102,7 @@ class Match:
     confidence: float
 
 
-def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | None]:
+def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> Readings:
     """Read quadrilaterals as markers of a layout.
 
     Args:
@@ -80,7 +111,7 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | 
         layout: Where border and bits are.
 
     Returns:
-        One reading each; None where black and white cannot be told apart.
+        One reading each.
     """
     H = square_to_quad(corners_px)
     reach = _TAP_CELLS / layout.side_cells
@@ -102,13 +133,8 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> list[Reading | 
     inside = (values - middle[bordered, count:]) / half[bordered, None]
     bits[bordered] = np.concatenate([border[bordered], inside], axis=1) @ _sharpening(layout).T
     near[bordered], far[bordered] = _outlines(grey, corners_px[bordered], half[bordered], layout)
-    words = packed(bits > 0)
-    return [
-        None
-        if np.isnan(half[i])
-        else Reading(bits[i], words[i], share[i], contrast[i], clear[i], near[i], far[i])
-        for i in range(len(H))
-    ]
+    measures = np.stack([share, 2 * half, clear, near, far], axis=1)
+    return Readings(bits, packed(bits > 0), measures)
 
 
 def _outlines(

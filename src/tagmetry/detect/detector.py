@@ -4,7 +4,7 @@ segment (squares in the image) -> decode (which marker) -> choose (one per place
 (where exactly).
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 
 import numpy as np
@@ -79,7 +79,9 @@ class Detector:
         """Return the markers, and the squares that were turned down, each with the reason."""
         grey = self._checked(image, camera)
         found = squares(grey, self.min_side_px or default_min_side_px(grey.size), bright=True)
-        candidates, rejections = self._judged(grey, found, all_squares=True)
+        judged = list(self._judged(grey, found, every=True))
+        candidates = [verdict for _, verdict in judged if isinstance(verdict, Candidate)]
+        rejections = [Rejection(at, reason) for at, reason in judged if isinstance(reason, str)]
         detections = _detections(grey, best_per_place(candidates), camera)
         return Findings(detections, distinct_rejections(rejections, detections))
 
@@ -102,9 +104,9 @@ class Detector:
         bright = self.rules.inverted or self._has_white_borders
         least_px = self.min_side_px or default_min_side_px(grey.size)
         if grey.size <= _SMALL_IMAGE_PX:
-            return self._judged(grey, squares(grey, least_px, bright=bright))[0]
+            return self._read(grey, squares(grey, least_px, bright=bright))
         found = squares_at_a_glance(grey, least_px, bright=bright)
-        candidates, _ = self._judged(grey, found)
+        candidates = self._read(grey, found)
         looked_at = Box(0, 0, 0, 0)
         for _ in range(_LOOKS_AGAIN):
             markers_px = np.array([one.corners_px for one in candidates]).reshape(-1, 4, 2)
@@ -113,7 +115,7 @@ class Detector:
                 break
             part = np.ascontiguousarray(grey[box.rows_and_columns])
             more = squares(part, least_px, bright=bright).moved(box.left_px, box.top_px)
-            candidates = candidates + self._judged(grey, more)[0]
+            candidates = candidates + self._read(grey, more)
             found, looked_at = found.joined(more), box
         return candidates
 
@@ -122,22 +124,24 @@ class Detector:
         return any(layout.white_border for layout in self._families_by_layout)
 
     def _judged(
-        self, grey: GreyPixels, found: Squares, *, all_squares: bool = False
-    ) -> tuple[list[Candidate], list[Rejection]]:
-        """Read squares in every layout: those of its border's colour, or all."""
-        candidates: list[Candidate] = []
-        rejections: list[Rejection] = []
+        self, grey: GreyPixels, found: Squares, *, every: bool
+    ) -> Iterator[tuple[Array, Candidate | str]]:
+        """Give squares, each with the marker that it shows or the reason why it shows none.
+
+        Of those without a border nothing is said unless every square is asked for.
+        """
         for layout, families in self._families_by_layout.items():
-            here = all_squares | self.rules.inverted | (found.is_bright == layout.white_border)
+            here = every | self.rules.inverted | (found.is_bright == layout.white_border)
             corners_px, is_bright = found.corners_px[here], found.is_bright[here]
             readings = read(grey, corners_px, layout)
-            for corners, bright, reading in zip(corners_px, is_bright, readings, strict=True):
-                verdict = self.rules.judge(corners, bool(bright), reading, families)
-                if isinstance(verdict, Candidate):
-                    candidates.append(verdict)
-                else:
-                    rejections.append(Rejection(corners, verdict))
-        return candidates, rejections
+            for i in range(len(readings)) if every else readings.bordered.tolist():
+                verdict = self.rules.judge(corners_px[i], bool(is_bright[i]), readings[i], families)
+                yield corners_px[i], verdict
+
+    def _read(self, grey: GreyPixels, found: Squares) -> list[Candidate]:
+        """Return those squares that read as markers."""
+        judged = self._judged(grey, found, every=False)
+        return [verdict for _, verdict in judged if isinstance(verdict, Candidate)]
 
 
 def _detections(

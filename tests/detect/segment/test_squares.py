@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tagmetry.camera import Camera
-from tagmetry.detect.segment import squares
+from tagmetry.detect.segment import Squares, squares, squares_at_a_glance
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import MountedMarker, marker_corners_m
@@ -53,6 +53,31 @@ def test_a_marker_s_outline_is_found_to_a_part_of_a_pixel(side_px: float, look: 
         errors.append(error_px(squares(grey, 8.0, bright=False).corners_px, truth_px))
     assert max(errors) < 0.5
     assert np.sqrt(np.mean(np.square(errors))) < 0.35
+
+
+@pytest.mark.parametrize("side_px", [20.0, 40.0, 100.0, 300.0])
+@pytest.mark.parametrize("noise", [1.0, 8.0])
+def test_a_glance_finds_markers_that_stand_alone(side_px: float, noise: float) -> None:
+    for seed in range(4):
+        grey, truth_px = scene(side_px, seed, Look(noise=noise))
+        assert error_px(squares_at_a_glance(grey, 16.0, bright=False).corners_px, truth_px) < 0.5
+        negative = squares_at_a_glance(255 - grey, 16.0, bright=True)
+        assert error_px(negative.corners_px[negative.is_bright], truth_px) < 0.5
+
+
+def test_of_large_markers_only_a_glance_at_half_the_scale_is_taken() -> None:
+    grey, truth_px = scene(40.0, 0)
+    assert error_px(squares_at_a_glance(grey, 32.0, bright=False).corners_px, truth_px) < 0.5
+    assert len(squares_at_a_glance(grey, 60.0, bright=False).corners_px) == 0
+
+
+def test_squares_of_a_part_are_moved_to_where_they_are() -> None:
+    grey, truth_px = scene(60.0, 1)
+    part = squares(np.ascontiguousarray(grey[3:, 5:]), 8.0, bright=True).moved(5, 3)
+    assert error_px(part.corners_px, truth_px) < 0.5
+    none = Squares(np.empty((0, 4, 2)), np.empty(0, dtype=bool))
+    np.testing.assert_array_equal(none.joined(part).corners_px, part.corners_px)
+    np.testing.assert_array_equal(part.joined(none).is_bright, part.is_bright)
 
 
 def test_corners_go_clockwise_as_seen() -> None:
