@@ -48,6 +48,21 @@ def test_outlines_lie_in_their_boxes_and_on_dark_pixels() -> None:
         assert seen.is_dark[y, x].all()
 
 
+def test_noise_begins_few_outlines_and_a_marker_begins_one() -> None:
+    rng = np.random.default_rng(1)
+    texture = cv2.GaussianBlur(rng.normal(0, 60, (240, 320)), (0, 0), 2.0) + 150
+    noise = np.clip(texture, 0, 255).astype(np.uint8)
+    seen = parted(noise, 16.0)
+    assert seen.begins.mean() < 0.8
+    noise[80:160, 100:180] = 20
+    again = parted(noise, 16.0)
+    middles = again.boxes[:, :2] + again.boxes[:, 2:] / 2
+    own = np.abs(middles - [70, 60]).max(axis=1).argmin()
+    assert again.begins[own]
+    assert again.is_likely[own]
+    assert not (again.is_likely & ~again.begins).any()
+
+
 def test_a_marker_s_border_is_a_likely_area() -> None:
     shown = rendered()
     seen = parted(shown.grey, 8.0)

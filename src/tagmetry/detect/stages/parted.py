@@ -9,7 +9,9 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from tagmetry.detect.segment.look import Look
 from tagmetry.detect.segment.mask import RIM_PX, dark_mask
+from tagmetry.detect.segment.starts import Places, starts
 from tagmetry.detect.segment.tiles import TILE_PX, Tiles
 from tagmetry.geometry.arrays import Array, BoolArray, GreyPixels, IntArray
 
@@ -30,7 +32,8 @@ class Parted:
         is_dark: Shape (h, w).
         boxes: Left, top, width, height of each dark area, pixels of `grey`, shape (n, 4).
         outlines: Pixels around each of them, shapes (m, 2).
-        is_likely: Which areas may be a square's by size and by the length of their outline, (n,).
+        begins: Whether the image steps clearly where each outline begins: it is walked, (n,).
+        is_likely: Which of these are large enough and without detours in their outline, (n,).
     """
 
     scale: float
@@ -40,6 +43,7 @@ class Parted:
     is_dark: BoolArray
     boxes: IntArray
     outlines: tuple[Array, ...]
+    begins: BoolArray
     is_likely: BoolArray
 
 
@@ -50,15 +54,14 @@ def parted(grey: GreyPixels, min_side_px: float) -> Parted:
     tiles = Tiles.of(seen)
     gate, level = tiles.gate, tiles.levels(_SHARE, tiles.gate)
     height, width = seen.shape
-    mask = dark_mask(seen, level)[RIM_PX : RIM_PX + height, RIM_PX : RIM_PX + width]
+    rimmed = dark_mask(seen, level)
+    first = starts(rimmed, seen, tiles.least_steps(Look().step_share), rimmed.size)
+    mask = rimmed[RIM_PX : RIM_PX + height, RIM_PX : RIM_PX + width]
     boxes, outlines = _areas(mask)
-    likely = [
-        _is_likely(box, len(line), scale * min_side_px)
-        for box, line in zip(boxes.tolist(), outlines, strict=True)
-    ]
+    begins = _begin_at(outlines, first - RIM_PX)
+    likely = begins & _are_likely(boxes, outlines, scale * min_side_px)
     per_pixel = np.kron(level, np.ones((TILE_PX, TILE_PX), np.uint8))[:height, :width]
-    shown = np.array(likely, dtype=bool)
-    return Parted(scale, seen, gate, per_pixel, mask > 0, boxes, outlines, shown)
+    return Parted(scale, seen, gate, per_pixel, mask > 0, boxes, outlines, begins, likely)
 
 
 def _halved(grey: GreyPixels) -> GreyPixels:
@@ -86,7 +89,17 @@ def _outline(labels: IntArray, label: int, box: list[int]) -> Array:
     return np.asarray(longest + np.array([left, top]), dtype=np.float64)
 
 
-def _is_likely(box: list[int], length: int, least_px: float) -> bool:
-    width, height = box[2:]
-    large = max(width, height) >= least_px and min(width, height) >= 0.5 * least_px
-    return large and length <= _DETOUR * 2 * (width + height)
+def _begin_at(outlines: tuple[Array, ...], first: Places) -> BoolArray:
+    """Say of each outline whether its first pixel in reading order is among those given, (n,)."""
+    known = set(map(tuple, first.tolist()))
+    rows = [line[np.lexsort(line.T)[0]] for line in outlines]
+    return np.array([(int(x), int(y)) in known for x, y in rows], dtype=bool)
+
+
+def _are_likely(boxes: IntArray, outlines: tuple[Array, ...], least_px: float) -> BoolArray:
+    """Say of each area whether it is large enough and its outline makes no detours, (n,)."""
+    sides, lengths = boxes[:, 2:], np.array([len(line) for line in outlines])
+    large = (sides.max(axis=1, initial=0) >= least_px) & (
+        sides.min(axis=1, initial=2**31) >= 0.5 * least_px
+    )
+    return np.asarray(large & (lengths <= _DETOUR * 2 * sides.sum(axis=1)))

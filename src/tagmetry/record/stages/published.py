@@ -37,7 +37,7 @@ def seed_003_panels(stages: Stages) -> Iterator[Panel]:
         "seed003-contours",
         "Seed 003: contours",
         f"{len(stages.classic.contours)} contours of dark areas; tagmetry walks around "
-        f"{int(stages.parted.is_likely.sum())} of {len(stages.parted.boxes)} at half scale.",
+        f"{int(stages.parted.begins.sum())} of {len(stages.parted.boxes)} areas at half scale.",
         _contours(stages),
     )
 

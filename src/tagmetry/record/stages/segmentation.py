@@ -57,15 +57,17 @@ def _levels(seen: Parted) -> Panel:
 def _areas(seen: Parted) -> Panel:
     canvas = _pale(seen.grey)
     times = canvas.shape[1] // seen.grey.shape[1]
-    for box, likely in zip(seen.boxes.tolist(), seen.is_likely, strict=True):
-        color = ORANGE if likely else PURPLE
+    kinds = zip(seen.boxes.tolist(), seen.begins, seen.is_likely, strict=True)
+    for box, begins, likely in kinds:
+        color = ORANGE if likely else SKY_BLUE if begins else PURPLE
         draw_path(canvas, _box_corners(box) * times, Pen(color, rim_px=0), closed=True)
     return Panel(
         "areas",
         "Dark areas",
-        f"{len(seen.boxes)} areas of pixels that touch. Orange: {seen.is_likely.sum()} that are "
-        "large enough and whose outline makes no detours. Purple: the others, which cost nothing "
-        "more.",
+        f"{len(seen.boxes)} areas of pixels that touch. Purple: those whose first pixel stands at "
+        f"no clear step from bright to dark; nothing more is done about them. The outlines of "
+        f"{seen.begins.sum()} are walked. Orange: {seen.is_likely.sum()} that are large enough and "
+        "make no detours.",
         canvas,
     )
 
@@ -86,8 +88,8 @@ def _outlines(seen: Parted) -> Panel:
     return Panel(
         "outlines",
         "Outlines",
-        f"Walked once around each likely area: {points} pixels of {seen.grey.size}. On every step "
-        "the place between two pixels is noted where the grey values pass the level.",
+        f"Those of the likely areas: {points} pixels of {seen.grey.size}. On every step the place "
+        "between two pixels is noted where the grey values pass the level.",
         canvas,
     )
 
