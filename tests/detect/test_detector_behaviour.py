@@ -126,28 +126,30 @@ def tile(marker_id: int, cell_px: int, quiet_cells: int = 1) -> np.ndarray:
     return cv2.GaussianBlur(np.kron(cells, np.ones((cell_px, cell_px))) * 170 + 40, (0, 0), 0.7)
 
 
-def grid_with_dots(cell_px: int) -> np.ndarray:
-    """Three by three markers with black squares between that touch their corners, as Kalibr's."""
+def grid_with_dots(cell_px: int, overlap_px: int) -> np.ndarray:
+    """Three by three markers with black squares between that reach into their corners."""
     side, gap = 8 * cell_px, 3 * cell_px
     sheet = np.full((4 * gap + 3 * side,) * 2, 210.0)
+    for row, column in np.ndindex(3, 3):
+        top, left = row * (side + gap) + gap, column * (side + gap) + gap
+        picture = family("tag36h11").picture(3 * row + column)
+        sheet[top : top + side, left : left + side] = np.kron(picture, np.ones((cell_px,) * 2))
+    sheet = np.where(sheet <= 1, 170 * sheet + 40, sheet)
     for row, column in np.ndindex(4, 4):
         top, left = row * (side + gap), column * (side + gap)
-        sheet[top : top + gap, left : left + gap] = 40
-        if row < 3 and column < 3:
-            picture = family("tag36h11").picture(3 * row + column)
-            here = np.kron(picture, np.ones((cell_px, cell_px))) * 170 + 40
-            sheet[top + gap : top + gap + side, left + gap : left + gap + side] = here
+        rows = slice(max(top - overlap_px, 0), top + gap + overlap_px)
+        sheet[rows, max(left - overlap_px, 0) : left + gap + overlap_px] = 40
     return cv2.GaussianBlur(np.pad(sheet, 40, constant_values=210), (0, 0), 1.5)
 
 
-def test_markers_that_touch_their_neighbours_are_found_in_a_large_picture() -> None:
-    """The first glance sees them joined; so close to each other, they are looked at again."""
-    picture = wide((50, 50, grid_with_dots(6)))
-    assert [d.id for d in Detector().detect(picture)] == list(range(9))
-    with_others = wide(
-        (50, 50, grid_with_dots(6)), (900, 600, tile(20, 9)), (900, 100, tile(21, 4))
-    )
-    assert [d.id for d in Detector().detect(with_others)] == [*range(9), 20, 21]
+@pytest.mark.parametrize(("cell_px", "overlap_px"), [(5, 0), (5, 1), (6, 2), (10, 2)])
+def test_markers_that_touch_their_neighbours_are_found_beside_lone_ones(
+    cell_px: int, overlap_px: int
+) -> None:
+    """A glance sees those of 40 px joined; as one that it sees has neighbours, it looks again."""
+    grid = grid_with_dots(cell_px, overlap_px)
+    picture = wide((50, 50, grid), (980, 700, tile(20, 9)), (1000, 500, tile(21, 4)))
+    assert [d.id for d in Detector().detect(picture)] == [*range(9), 20, 21]
 
 
 def test_a_marker_on_a_dark_ground_without_a_quiet_zone_is_not_seen() -> None:

@@ -3,7 +3,8 @@
 Half the scale halves the noise and costs a quarter: large markers are found there. Small ones need
 every pixel, the smallest are seen better between the pixels. Each scale looks with low, middle and
 high levels of dark: borders that touch dim clutter need a low one, faint borders a high one. A
-glance does with the middle level, which finds almost all markers that stand alone.
+glance does with the middle level, which finds almost all markers that stand alone, and with what
+tells of boards whose markers touch each other.
 """
 
 from collections.abc import Iterator
@@ -23,7 +24,7 @@ _LEAST_IMAGE_PX = 8
 _SLACK = 0.9  # blur rounds corners off, so that squares look smaller at first
 _LEVELS = Look(0.35), Look(0.5), Look(0.7)
 _THIN = Look(0.5, thinned=True)
-_GLANCE = Look(0.5, step_share=0.55)
+_GLANCE = Look(0.5, step_share=0.55), Look(0.5, thinned=True, step_share=0.55)
 _GLANCE_AT_SMALL = Look(0.5, step_share=0.55, most_px=48.0)
 _Plan = dict[float, tuple[Look, ...]]  # the looks at each scale
 
@@ -65,7 +66,7 @@ def squares(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
 
 def squares_at_a_glance(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
     """Return most of what `squares` returns, in a fraction of its time."""
-    plan: _Plan = {0.5: (_GLANCE,), 1.0: (_GLANCE_AT_SMALL,)}
+    plan: _Plan = {0.5: _GLANCE, 1.0: (_GLANCE_AT_SMALL,)}
     if min_side_px >= _FULL_BELOW_PX:
         del plan[1.0]
     return _both(grey, min_side_px, plan, bright)
@@ -73,9 +74,9 @@ def squares_at_a_glance(grey: GreyPixels, min_side_px: float, *, bright: bool) -
 
 def _plan(min_side_px: float) -> _Plan:
     """Return all looks that may find something."""
-    plan = {0.5: _LEVELS, 1.0: (*_LEVELS, _THIN), 2.0: _LEVELS}
+    plan: _Plan = {0.5: (*_LEVELS, _THIN), 1.0: (*_LEVELS, _THIN), 2.0: _LEVELS}
     if min_side_px >= _FULL_BELOW_PX:
-        return {0.5: (*_LEVELS, _THIN)}
+        del plan[1.0]
     if min_side_px >= _DOUBLE_BELOW_PX:
         del plan[2.0]
     return plan
