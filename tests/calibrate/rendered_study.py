@@ -10,7 +10,10 @@ installed. The pictures are the twin's, which shares no code with the finder or 
 
 import sys
 from collections.abc import Iterator
+from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
+from io import StringIO
+from itertools import islice
 
 import cv2
 import numpy as np
@@ -60,17 +63,22 @@ class Run:
 
     Attributes:
         distance2: Squared Mahalanobis distance of the truth by our covariance.
-        limit: Its 95 % point.
+        unknowns: How many numbers the camera has; the distance's mean, if the covariance is right.
         focal: Errors of fx in percent: ours, OpenCV's from our corners and from its own, lensboy's.
-        within: Whether fx is within 1.96 of our and of OpenCV's stated deviations.
+        within: Whether fx is within 1.96 stated deviations, ours and OpenCV's from its corners.
         corner_px: Root mean square errors of the corners, ours and OpenCV's.
     """
 
     distance2: float
-    limit: float
+    unknowns: int
     focal: tuple[float, ...]
     within: tuple[float, float]
-    corner_px: tuple[float, float]
+    corner_px: tuple[float, ...]
+
+    @property
+    def inside(self) -> bool:
+        """Whether the truth lies in the stated 95 % ellipsoid."""
+        return bool(self.distance2 < stats.chi2.ppf(0.95, self.unknowns))
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,30 +132,29 @@ def _is_inside(places_px: Array, one: Truth) -> bool:
 
 def run(one: Truth, lens: LensName, shown: Iterator[Picture]) -> Run:
     """Return what comes out of views of one camera."""
-    views, theirs, errors = [], [], []
-    while len(views) < VIEWS:
-        picture = next(shown)
-        view = find_board(picture.pixels, BOARD)
-        if isinstance(view, BoardView):
-            views.append(view)
-            theirs.append(replace(view, corners_px=_opencv_corners_px(picture.pixels, view)))
-            both = (views[-1], theirs[-1])
-            errors.append(
-                [_rms_px(each.corners_px - picture.corners_px[view.points]) for each in both]
-            )
+    found = list(islice(_found(shown), VIEWS))
+    views = [view for _, view in found]
+    theirs = [replace(v, corners_px=_opencv_corners_px(p.pixels, v)) for p, v in found]
     error, covariance = _ours(one, lens, views)
-    same, sd = _opencv_focal_px(views, one)
-    own, _ = _opencv_focal_px(theirs, one)
+    same, _ = _opencv_focal_px(views, one)
+    own, sd = _opencv_focal_px(theirs, one)
     focal_px = one.intrinsics[0]
-    peers = np.array([same, own, _lensboy_focal_px(views, one)]) - focal_px
-    within = (abs(error[0]) < 1.96 * np.sqrt(covariance[0, 0]), abs(peers[0]) < 1.96 * sd)
+    focal = np.array([error[0], *(np.array([same, own, _lensboy_focal_px(views, one)]) - focal_px)])
     return Run(
         mahalanobis_squared(error, covariance),
-        float(stats.chi2.ppf(0.95, len(error))),
-        tuple(float(e) for e in 100 / focal_px * np.array([error[0], *peers])),
-        within,
-        tuple(np.sqrt(np.mean(np.square(errors), axis=0))),
+        len(error),
+        tuple(float(e) for e in 100 * focal / focal_px),
+        (abs(focal[0]) < 1.96 * np.sqrt(covariance[0, 0]), abs(focal[2]) < 1.96 * sd),
+        tuple(_rms_px(found, each) for each in (views, theirs)),
     )
+
+
+def _found(shown: Iterator[Picture]) -> Iterator[tuple[Picture, BoardView]]:
+    """Give the pictures in which the board is found."""
+    for picture in shown:
+        view = find_board(picture.pixels, BOARD)
+        if isinstance(view, BoardView):
+            yield picture, view
 
 
 def _ours(one: Truth, lens: LensName, views: list[BoardView]) -> tuple[Array, Array]:
@@ -196,28 +203,39 @@ def _lensboy_focal_px(views: list[BoardView], one: Truth) -> float:
     free = np.arange(14) < len(one.coefficients)
     kind = lensboy.OpenCVConfig(height_px, width_px, included_distortion_coefficients=free)
     frames = [lensboy.Frame(view.points, view.corners_px) for view in views]
-    solved = lensboy.calibrate_camera(BOARD.corners_m, frames, kind, estimate_target_warp=False)
+    with redirect_stdout(StringIO()):  # it prints
+        solved = lensboy.calibrate_camera(BOARD.corners_m, frames, kind, estimate_target_warp=False)
     return float(solved.camera_model.fx)
 
 
-def _rms_px(errors_px: Array) -> float:
-    return float(np.sqrt((errors_px**2).mean()))
+def _rms_px(found: list[tuple[Picture, BoardView]], views: list[BoardView]) -> float:
+    """Return the root mean square error of corners along an axis."""
+    errors_px = [
+        view.corners_px - picture.corners_px[view.points]
+        for (picture, _), view in zip(found, views, strict=True)
+    ]
+    return float(np.sqrt((np.concatenate(errors_px) ** 2).mean()))
+
+
+HEAD = """\
+                                focal error rms %                   fx in 1.96 sd   corners px
+camera            inside d^2/n   ours   OpenCV its corners lensboy   ours   OpenCV   ours OpenCV"""
 
 
 def line(name: str, runs: list[Run]) -> str:
-    """Return a line of the table."""
-    inside = np.mean([one.distance2 < one.limit for one in runs])
-    grown = np.mean([one.distance2 / stats.chi2.mean(1) for one in runs])
+    """Return a line of the table; NaN where OpenCV states nothing or lensboy is missing."""
+    inside = np.mean([one.inside for one in runs])
+    spread = np.mean([one.distance2 / one.unknowns for one in runs])
     focal = np.sqrt(np.mean(np.square([one.focal for one in runs]), axis=0))
     within = np.mean([one.within for one in runs], axis=0)
     corner_px = np.mean([one.corner_px for one in runs], axis=0)
-    numbers = (*focal, *within, *corner_px)
-    return f"{name:16s} {inside:6.3f} {grown:6.2f}  " + " ".join(f"{n:8.4f}" for n in numbers)
+    numbers = " ".join(f"{number:8.4f}" for number in (*focal, *within, *corner_px))
+    return f"{name:16s} {inside:7.3f} {spread:5.2f} {numbers}"
 
 
 def main(runs: int = 10) -> None:
     """Print a line for each camera, and the shares over all."""
-    print("camera           inside  d^2   focal rms %: ours, OpenCV, its corners, lensboy; ")
+    print(HEAD)
     everything: list[Run] = []
     for number, (name, (one, lens)) in enumerate(STUDIED.items()):
         shown = pictures(one, np.random.default_rng([2003, number]))

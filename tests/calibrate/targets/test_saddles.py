@@ -91,6 +91,17 @@ def test_blur_contrast_and_noise_are_those_of_the_picture() -> None:
     assert np.median(fitted.noise) == pytest.approx(3.0, rel=0.15)
 
 
+def test_slanted_edges_leave_no_more_than_the_noise() -> None:
+    shown = picture(BOARD, spacing_px=40.0, tilt_deg=60.0, axis_deg=45.0, noise=1.0)
+    along, down = steps(shown.truth_px)
+    slant = (along * down).sum(axis=1) / np.prod(
+        [np.linalg.norm(step, axis=1) for step in (along, down)], axis=0
+    )
+    assert np.abs(slant).max() > 0.5
+    fitted = fit_saddles(shown.pixels, shown.truth_px, along, down, bends=np.zeros((54, 2)))
+    assert np.median(fitted.noise) == pytest.approx(np.hypot(1.0, 0.29), rel=0.15)
+
+
 def test_there_is_no_corner_on_an_edge_in_noise_or_on_grey() -> None:
     edge = np.tile(np.repeat(np.array([20, 220], np.uint8), 40), (80, 1))
     noise = np.random.default_rng(0).integers(0, 256, (80, 80), dtype=np.uint8)
@@ -117,14 +128,14 @@ def test_what_is_not_believed_is_dropped_with_its_reason() -> None:
     shown = picture(BOARD)
     along, down = steps(shown.truth_px)
     guesses = shown.truth_px.copy()
-    guesses[3] += [4.0, 2.0]
+    guesses[3] += [2.5, 1.0]
     guesses[20] = [8.0, 10.0]
     guesses[30] = [-5.0, 10.0]
     guesses[31] = [np.nan, 10.0]
     found = refined(shown.pixels, Guesses(np.arange(54), PLACES, guesses, along, down))
     reasons = {lost.point: lost.reason for lost in found.dropped}
     assert set(reasons) == {3, 20, 30, 31}
-    assert "moved" in reasons[3]
+    assert "moved 2." in reasons[3]
     assert reasons[20] == "no crossing of two edges"
     assert "at the picture's edge" in reasons[30]
     kept = np.setdiff1d(np.arange(54), list(reasons))

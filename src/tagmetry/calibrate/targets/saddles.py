@@ -2,16 +2,17 @@
 
 Around a corner c the picture is
 
-    I(p) = (a + b erf(d1 / (sqrt(2) s)) erf(d2 / (sqrt(2) s))) (1 + g . p),
+    I(p) = (a + b (erf(d1 / (sqrt(2) s)) erf(d2 / (sqrt(2) s)) + q)) (1 + g . p),
     d = n . (p - c) - k / 2 ((t . (p - c))^2 + s^2)                 across an edge
 
 two edges with unit normals n, directions t and curvatures k, a mean grey a, half the contrast b, a
-blur s (in pixels, the pixel's own area included) and light that grows by g from pixel to pixel. The
-curvatures are given (`bends`); all other nine unknowns are fitted to the raw pixels by Levenberg-
-Marquardt (`crossing`), and the covariance of c follows from the residuals. An edge taken for
-straight over +-L would be found k L^2 / 6 to the inside of its curve: 0.01 px behind usual lenses,
-in all views alike. Whatever is the same on both sides of c, such as spread ink or a camera's gamma
-curve, does not move c.
+blur s (in pixels, the pixel's own area included) and light that grows by g from pixel to pixel; q
+is what edges that are not square to each other add where they cross (`crossing`). The curvatures
+are given (`bends`); all other nine unknowns are fitted to the raw pixels by Levenberg-Marquardt,
+and the covariance of c follows from the residuals. Taken for straight over +-L, an edge would be
+found k L^2 / 6 to the inside of its curve: 0.01 px behind usual lenses, in all views alike.
+Whatever is the same on both sides of c, such as spread ink or a camera's gamma curve, does not
+move c.
 """
 
 from dataclasses import dataclass
