@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from tagmetry.camera import Camera, Image
-from tagmetry.detect import Detection, Detector, Findings
+from tagmetry.detect import Detection, Detector, Findings, Tracker
 from tagmetry.detect.stages import Stages, look_through
 from tagmetry.errors import InputError
 from tagmetry.files.text import named_errors
@@ -23,11 +23,13 @@ class Measurement:
         detector: Finds the markers.
         camera: Intrinsics of the images; no poses without.
         sizes_m: Side of the black squares: one for all, or by id; no poses without.
+        tracker: Follows the markers from image to image; without, every image is looked at whole.
     """
 
     detector: Detector
     camera: Camera | None = None
     sizes_m: Sizes | None = None
+    tracker: Tracker | None = None
 
     def __post_init__(self) -> None:
         by_id = self.sizes_m if isinstance(self.sizes_m, Mapping) else {0: self.sizes_m}
@@ -41,7 +43,14 @@ class Measurement:
         """Return the markers of an image, with their poses where they can be known."""
         with named_errors(image.source or "image"):
             camera = self._camera_of(image)
+            if self.tracker is not None:
+                return self.result(image, _tracked(self.tracker, image, camera))
             return self.result(image, self.detector.detect(image.pixels, camera))
+
+    def begin_source(self) -> None:
+        """Forget the markers of the images before: those that come are of another source."""
+        if self.tracker is not None:
+            self.tracker.reset()
 
     def explain(self, image: Image) -> Findings:
         """Return the markers of an image, and the squares that were turned down."""
@@ -82,6 +91,16 @@ class Measurement:
         if isinstance(self.sizes_m, Mapping):
             return self.sizes_m.get(detection.id)
         return self.sizes_m
+
+
+def _tracked(tracker: Tracker, image: Image, camera: Camera | None) -> tuple[Detection, ...]:
+    """Return the markers of an image that has a time."""
+    if image.time_kind == "none":
+        raise InputError(
+            "expected images with times, to follow markers through, found one without; look at "
+            "pictures one by one, without tracking"
+        )
+    return tracker.track(image.pixels, image.time_s, camera)
 
 
 def _check_forgiven(detector: Detector) -> None:
