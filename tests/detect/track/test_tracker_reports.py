@@ -83,16 +83,17 @@ def test_a_blurred_other_marker_is_not_taken_for_the_old_one(blur_px: float) -> 
 
 
 def test_the_id_is_kept_where_blur_leaves_bits_unread() -> None:
-    kept = 0
+    kept, detected = 0, 0
     for own in range(12):
         tracker = small_tracker()
         tracked(tracker, [[Shown(own, 150, 120, side_px=60)]] * 3)
-        blurred = image([Shown(own, 150, 120, side_px=60)], look=Look(blur_px=6.0))
-        assert ids(Detector().detect(blurred)) == []
+        blurred = image([Shown(own, 150, 120, side_px=60)], look=Look(blur_px=5.0))
         found = tracker.track(blurred, tracker._time_s + STEP_S)
         assert ids(found) in ([], [own])
-        kept += bool(found)
-    assert kept >= 9
+        kept += len(found)
+        detected += len(Detector().detect(blurred))
+    assert kept >= 10
+    assert detected < kept
 
 
 def test_an_empty_image_after_many_markers_gives_nothing() -> None:

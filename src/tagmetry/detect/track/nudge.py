@@ -89,9 +89,26 @@ def _falls(rises: Array, best: int, way: int) -> float:
 @njit(cache=True, nogil=True)
 def _ends(shifts: Array) -> tuple[float, float]:
     """Return by how many steps a side moves at its start and at its end, by medians."""
-    slope = np.median((shifts[_HALF:] - shifts[:_HALF]) / (_AT[_HALF] - _AT[0]))
-    offset = np.median(shifts - slope * _AT)
+    apart = _AT[_HALF] - _AT[0]
+    slopes, offsets = np.empty(_HALF), np.empty(_SCANS)
+    for k in range(_HALF):
+        slopes[k] = (shifts[k + _HALF] - shifts[k]) / apart
+    slope = _median(slopes)
+    for k in range(_SCANS):
+        offsets[k] = shifts[k] - slope * _AT[k]
+    offset = _median(offsets)
     return offset - 0.5 * slope, offset + 0.5 * slope
+
+
+@njit(cache=True, nogil=True)
+def _median(values: Array) -> float:
+    """Return the mean of the middle two of an even number of values, which are put in order."""
+    for k in range(1, len(values)):  # NumPy's own would take seconds to compile
+        for j in range(k, 0, -1):
+            low, high = min(values[j - 1], values[j]), max(values[j - 1], values[j])
+            values[j - 1], values[j] = low, high
+    half = len(values) // 2
+    return float(0.5 * (values[half - 1] + values[half]))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
