@@ -58,11 +58,17 @@ def detect(  # noqa: PLR0913 (each argument is an option)
     min_side: Annotated[
         float | None, typer.Option(help="Smallest side of a marker to look for, in pixels.")
     ] = None,
+    track: Annotated[
+        bool,
+        typer.Option("--track", help="Follow markers from image to image: quicker in videos."),
+    ] = False,
     limit: Annotated[int | None, typer.Option(min=1, help="Stop after so many images.")] = None,
 ) -> None:
     """Find markers; with --size and --camera, measure where they are."""
     from tagmetry.cli.interrupts import held_back
     from tagmetry.cli.report import explain_lines, json_line, result_lines
+    from tagmetry.cli.warmup import tell_compiling
+    from tagmetry.errors import InputError
 
     task = measurement(
         family,
@@ -71,11 +77,15 @@ def detect(  # noqa: PLR0913 (each argument is an option)
         inverted=inverted,
         forgive_bits=forgive_bits,
         min_side_px=min_side,
+        track=track,
     )
+    if track and explain:
+        raise InputError("--explain looks at whole images, --track does not; leave one of them out")
     if out == "-":
         json, out = True, None
     if _lacks_poses(task, out, sources):
         typer.echo("tagmetry: no poses: they need both --size and --camera", err=True)
+    tell_compiling()
     sights = _FirstStages(stages, task)
     with ExitStack() as stack:
         takers = _Takers(stack, _results_writer(out, marker), overlay, cube, task)
@@ -192,6 +202,7 @@ def _images(sources: list[str], task: "Measurement") -> Generator["Image"]:
     for spec in sources:
         with open_images(spec, camera=task.camera, on_state=StateTeller(spec)) as source:
             first = count
+            task.begin_source()
             for image in progress(source):
                 yield replace(image, sequence=first + image.sequence)
                 count = first + image.sequence + 1

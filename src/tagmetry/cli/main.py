@@ -18,10 +18,12 @@ from tagmetry.cli.demo import demo
 from tagmetry.cli.detect import detect
 from tagmetry.cli.doctor import doctor
 from tagmetry.cli.info import info
+from tagmetry.cli.kernels import ensure_cache_folder
 from tagmetry.cli.lab import app as lab_app
 from tagmetry.cli.locate import locate
 from tagmetry.cli.print import app as print_app
 from tagmetry.cli.twin import app as twin_app
+from tagmetry.cli.warmup import warmup
 from tagmetry.errors import InputError
 
 app = typer.Typer(
@@ -40,6 +42,7 @@ app.add_typer(lab_app, name="lab")
 app.command()(info)
 app.command()(doctor)
 app.command()(demo)
+app.command()(warmup)
 app.command()(bench)
 
 
@@ -88,6 +91,7 @@ def run(arguments: list[str]) -> int:
 
 def _invoke(arguments: list[str]) -> None:
     """Run one command; Typer's own runner would turn a closed pipe and Ctrl-C into exits."""
+    ensure_cache_folder()
     command = typer.main.get_command(app)
     with command.make_context("tagmetry", list(arguments)) as context:
         command.invoke(context)

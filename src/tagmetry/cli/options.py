@@ -33,9 +33,10 @@ def measurement(
     inverted: bool = False,
     forgive_bits: int | None = None,
     min_side_px: float | None = None,
+    track: bool = False,
 ) -> "Measurement":
     """Return the measurement that the options ask for."""
-    from tagmetry.detect import Detector
+    from tagmetry.detect import Detector, Tracker
     from tagmetry.files import load_camera, resolve_family
     from tagmetry.files.lengths import parse_sizes_m
     from tagmetry.pipeline import Measurement
@@ -50,4 +51,5 @@ def measurement(
         detector,
         camera=load_camera(camera) if camera is not None else None,
         sizes_m=parse_sizes_m(size) if size is not None else None,
+        tracker=Tracker(detector) if track else None,
     )
