@@ -66,6 +66,7 @@ WRITTEN = {
     "print_sheet.sh": ("sheet.pdf",),
     "print_walls.sh": ("wall7.pdf", "board.pdf"),
     "rough_camera.py": ("rough.yaml",),
+    "track.sh": ("tracked.jsonl",),
     "twin_render.sh": ("desk/truth.jsonl", "desk.jsonl"),
 }
 SAID = {
@@ -79,6 +80,7 @@ SAID = {
     "pose.py": "tag36h11 8: +0.2000 ",
     "read_results.py": "photo.png 7 ",
     "robot_position.py": "camera at [ 4.15",
+    "track.py": "0.20 s: 2 at",
     "twin_render.sh": "wrote 3 pictures",
     "twin_scene.py": "farthest corner: 0.0",
     "wall_body.py": "from 2 markers",
@@ -89,6 +91,8 @@ NEEDS = {
     "detect_drive.sh": ["av"],
     "detect_video.sh": ["av", "pyarrow"],
     "floor_positions.py": ["av", "pyarrow"],
+    "track.py": ["av"],
+    "track.sh": ["av"],
     **{name: ["reportlab"] for name in NAMES if name.startswith("print_")},
 }
 

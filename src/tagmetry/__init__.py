@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from tagmetry.camera import Image as Image
     from tagmetry.detect import Detection as Detection
     from tagmetry.detect import Detector as Detector
+    from tagmetry.detect import Tracker as Tracker
     from tagmetry.errors import InputError as InputError
     from tagmetry.files import load_camera as load_camera
     from tagmetry.files import save_camera as save_camera
@@ -28,6 +29,7 @@ _HOMES = {
     "InputError": "errors",
     "MarkerFamily": "markers",
     "MarkerPose": "pose",
+    "Tracker": "detect",
     "estimate_body_pose": "pose",
     "estimate_pose": "pose",
     "family": "markers",
@@ -44,6 +46,7 @@ __all__ = [
     "InputError",
     "MarkerFamily",
     "MarkerPose",
+    "Tracker",
     "__version__",
     "estimate_body_pose",
     "estimate_pose",
