@@ -6,13 +6,7 @@ from pathlib import Path
 from tagmetry.lab.report.chapter import chapters
 
 IMAGES = Path(__file__).parent / "images" / "lab"
-DRAWN = (
-    "seed002_sights",
-    "seed002_figure4",
-    "seed002_figure17",
-    "seed003_figure12",
-    "seed003_figure23",
-)
+DRAWN = ("seed002_sights", "seed002_figure17", "seed003_figure12")
 DPI = 80
 
 

@@ -8,14 +8,14 @@ import numpy as np
 
 from tagmetry.lab.beside.sample import Sample
 from tagmetry.lab.published.seed002 import Statement
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, LIGHT, RED, blank, log_colors
+from tagmetry.record.calibration_report.drawing import BLUE, GOLD, RED, blank, log_colors
 from tagmetry.record.calibration_report.figures import ReportFigure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_COLORS = (BLUE, RED, GOLD, LIGHT, "#009e73", "#666666")
+_COLORS = (BLUE, RED, GOLD)
 _AXES = {
     "distance_m": "distance, m",
     "yaw_deg": "yaw, degrees",
@@ -37,11 +37,15 @@ class Curve:
     Attributes:
         name: For the legend.
         rows: What is averaged.
+        color: Which colour it has; ours and the paper's of one setting have the same.
+        dashed: Whether it is dashed, as the paper's are.
         stated: What the paper says of it, drawn as dotted lines.
     """
 
     name: str
     rows: Sample
+    color: int = 0
+    dashed: bool = False
     stated: tuple[Statement, ...] = ()
 
 
@@ -63,8 +67,8 @@ def curve_figure(
         figure.clear()
         grid = figure.subplots(1 + (len(plots) > 2), min(len(plots), 2), squeeze=False)
         for axes, plot in zip(grid.flat, plots, strict=True):
-            for color, curve in zip(_COLORS, curves, strict=False):
-                _draw_curve(axes, curve, plot, color)
+            for curve in curves:
+                _draw_curve(axes, curve, plot)
             axes.set_yscale("log")
             axes.set_xlabel(_AXES[plot.against])
             axes.set_ylabel(_ERRORS[plot.error][0])
@@ -77,13 +81,14 @@ def curve_figure(
     return ReportFigure(f"seed002_figure{number}", f"Figure {number}: {title}", told, draw)
 
 
-def _draw_curve(axes: "Axes", curve: Curve, plot: Plot, color: str) -> None:
-    scale = _ERRORS[plot.error][1]
+def _draw_curve(axes: "Axes", curve: Curve, plot: Plot) -> None:
+    scale, color = _ERRORS[plot.error][1], _COLORS[curve.color]
     groups = curve.rows.by(plot.against)
     means = [one.mean(plot.error) for one in groups.values()]
     x, y = np.array(list(groups)), scale * np.array([one.mean for one in means])
     half = scale * np.array([one.half for one in means])
-    axes.plot(x, y, "o-", color=color, ms=3, lw=1.3, label=curve.name)
+    line = "o--" if curve.dashed else "o-"
+    axes.plot(x, y, line, color=color, ms=3, lw=1.3, label=curve.name)
     axes.fill_between(x, np.maximum(y - half, 0.2 * y), y + half, color=color, alpha=0.2, lw=0)
     for one in curve.stated:
         if one.quantity == plot.error and plot.against == "distance_m":

@@ -75,6 +75,6 @@ def _figures(everything: Sample, axis: str) -> Iterator[ReportFigure]:
     name = axis[:-4]
     yield surface_figure(surface, f"distance and {name}", _about(everything, axis), axis)
     real = _about(everything, axis, "webcam")
-    both = (Curve("ours", real.ours), Curve("the paper's steps", real.paper))
+    both = (Curve("ours", real.ours), Curve("the paper's steps", real.paper, 1, dashed=True))
     plots = [Plot("radial_m", axis), Plot("angle_deg", axis)]
     yield curve_figure(curve, f"{name}, as a webcam sees it", both, plots)
