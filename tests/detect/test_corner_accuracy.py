@@ -1,8 +1,7 @@
 """Corners of rendered markers: how far off, and does the covariance say so?
 
 A corner's error is compared with the Cramer-Rao bound of four blurred sides, and with its own
-covariance: the squared Mahalanobis distance of eight coordinates has the mean 8. At 40 dB the
-covariance holds a floor for what no model describes, and is larger than the errors.
+covariance: the squared Mahalanobis distance of eight coordinates has the mean 8, from 20 to 40 dB.
 """
 
 import cv2
@@ -36,7 +35,7 @@ def test_errors_are_as_large_as_the_covariance_says(
 ) -> None:
     measured = trials(40, 1, side_px=side_px, tilt_deg=20.0, look=look(noise, blur_px))
     assert measured.missed == 0
-    assert 3.0 < measured.mean_distance2 < 11.0
+    assert 5.5 < measured.mean_distance2 < 11.0
 
 
 @pytest.mark.slow
@@ -46,14 +45,14 @@ def test_errors_are_as_large_as_the_covariance_says(
 def test_covariance_over_sizes_noise_and_blur(side_px: float, noise: float, blur_px: float) -> None:
     measured = trials(150, 2, side_px=side_px, tilt_deg=20.0, look=look(noise, blur_px))
     assert measured.missed <= 2
-    assert 3.0 < measured.mean_distance2 < 11.0
+    assert 5.5 < measured.mean_distance2 < 11.0
 
 
 @pytest.mark.parametrize("tilt_deg", [0.0, 40.0, 65.0])
 def test_covariance_of_oblique_views(tilt_deg: float) -> None:
     measured = trials(30, 3, side_px=60.0, tilt_deg=tilt_deg, look=look(5.0))
     assert measured.missed == 0
-    assert 3.0 < measured.mean_distance2 < 11.0
+    assert 5.5 < measured.mean_distance2 < 11.0
 
 
 @pytest.mark.parametrize("camera_known", [False, True])
@@ -70,7 +69,7 @@ def test_covariance_through_a_strong_lens(camera_known: bool) -> None:
     )
     assert measured.missed == 0
     assert measured.rms_px < 0.02
-    assert 3.0 < measured.mean_distance2 < 11.0
+    assert 5.5 < measured.mean_distance2 < 11.0
 
 
 @pytest.mark.parametrize(("side_px", "times"), [(30.0, 1.3), (60.0, 1.3), (100.0, 1.3)])

@@ -11,6 +11,7 @@ from tagmetry.detect.photometric.view import View
 from tagmetry.geometry import Array
 
 LEAST_NOISE = 0.3  # grey values: that of rounding
+_JUDGED = 256  # pixels whose median residual tells the noise
 _PRIOR_EXPONENT = 0.7  # of its logarithm
 _PRIOR_BLUR = 1.0  # of its variances, as a share
 _PRIOR_SLOPE = 0.3  # of light, across half a diagonal
@@ -50,7 +51,7 @@ def fit_pixels(
     moved_px = np.inf
     for _ in range(_MOST_ROUNDS):
         sums, sizes = _summed(view, fit, pixel_count, edges, noise, count)
-        noise = max(np.median(sizes) / 0.6745, LEAST_NOISE)
+        noise = max(np.median(sizes[:: 1 + pixel_count // _JUDGED]) / 0.6745, LEAST_NOISE)
         N, g = sums[1 : count + 1, 1 : count + 1], sums[1 : count + 1, 0].copy()
         if count > SLOPES:
             _add_priors(N, g, fit, noise)

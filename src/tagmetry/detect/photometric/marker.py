@@ -35,7 +35,8 @@ _LEAST_PIXELS = 60
 _COARSE_PIXELS, _FINE_PIXELS = 250, 1600
 _COARSE_BESIDE_PX, _BESIDE_PX = 1.5, 0.9  # farther pixels say little of an edge
 _COARSE_SPARE_PX, _SPARE_PX = 1.0, 0.2  # that a first guess may be wrong by
-_NEARLY_PX, _SETTLED_PX = 0.1, 0.05  # a round that moves the picture less was the last
+# A round that moves the picture less was the last: of place and levels, of all, of all pixels.
+_ROUGHLY_PX, _NEARLY_PX, SETTLED_PX = 0.15, 0.03, 0.12
 _SIGHT = 6.0  # blurs, both sides of a pixel together
 
 
@@ -70,7 +71,7 @@ def fit_markers(
     count, first_cell = len(sizes), 0
     fits, places, joints = starts.copy(), np.zeros((count, 4, 2)), np.zeros((count, JOINT, JOINT))
     noises, moves_px = np.zeros(count), np.zeros(count)
-    room, pixels = row.new_room(), np.zeros((MOST_BLOCKS, row.READ))
+    room, pixels = row.new_room(), np.empty((MOST_BLOCKS, row.READ))
     for k in range(count):
         ink = inks[first_cell : first_cell + sizes[k] ** 2].reshape(sizes[k], sizes[k])
         first_cell += sizes[k] ** 2
@@ -116,7 +117,8 @@ def _fit_coarsely(view: View, ink: Array, fit: Array) -> tuple[float, float]:
     edges = _with_windows(view, ink, fit, count, _COARSE_SPARE_PX)
     noise, moved_px = _FIRST_NOISE, np.inf
     for numbers in (SLOPES, BOWS):
-        noise, moved_px, _, _ = fit_pixels(view, fit, count, edges, numbers, _NEARLY_PX, noise)
+        settled_px = _ROUGHLY_PX if numbers == SLOPES else _NEARLY_PX
+        noise, moved_px, _, _ = fit_pixels(view, fit, count, edges, numbers, settled_px, noise)
     return noise, moved_px
 
 
@@ -127,7 +129,7 @@ def _fit_finely(
     """Improve a fit by all of the pixels; return as above, and the covariance's factor."""
     count = gather(view, ink, fit, _BESIDE_PX, _FINE_PIXELS)
     edges = _with_windows(view, ink, fit, count, _SPARE_PX)
-    noise, moved_px, L, scale = fit_pixels(view, fit, count, edges, numbers, _SETTLED_PX, noise)
+    noise, moved_px, L, scale = fit_pixels(view, fit, count, edges, numbers, SETTLED_PX, noise)
     variance = variance_beside_edges(view, fit, count, edges, noise)
     variance *= count / max(count - numbers, 1)
     return noise, moved_px if count >= _LEAST_PIXELS else np.inf, (L, np.sqrt(variance) * scale)

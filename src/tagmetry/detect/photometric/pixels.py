@@ -15,7 +15,8 @@ from tagmetry.geometry.arrays import IntArray
 
 MOST_BLOCKS = 48
 _MOST_PIXELS = (MOST_BLOCKS - 1) * row.BLOCK
-_FLAT = 16  # one of so many flat pixels is taken; a bit that is no edge's
+_FLAT = 16  # stands for a flat pixel where others have the bits of edges
+_FLAT_SHARE = 0.4  # of flat pixels among the chosen, at most; else one in 16 is taken
 _GOLDEN = 0.618
 
 
@@ -33,6 +34,7 @@ def gather(view: View, ink: Array, fit: Array, beside_px: float, wanted: int) ->
     grey, frame, lens, room, _ = view
     cells, edges = len(ink), _edges_at_corners(ink)
     every = max(1, int(np.ceil(_beside_edges(ink, fit, frame[2], beside_px) / wanted)))
+    rule = beside_px, _flat_among(cell_px(fit, frame[2]) * cells, every, wanted)
     first_row, last_row = rows_in_sight(fit, frame, cells, grey.shape[0], lens)
     count, lane, turn = 0, 0, 0
     for image_row in range(first_row, last_row + 1):
@@ -44,9 +46,19 @@ def gather(view: View, ink: Array, fit: Array, beside_px: float, wanted: int) ->
             room[row.SEEN + lane] = grey[image_row, column]
             lane += 1
             if lane == row.BLOCK:
-                count = _chosen(view, fit, cells, edges, beside_px, turn, lane, count)
-                lane, turn = 0, turn + 5
-    return _chosen(view, fit, cells, edges, beside_px, turn, lane, count)
+                count = _chosen(view, fit, cells, edges, rule, turn, lane, count)
+                lane, turn = 0, turn + row.BLOCK - 3
+    count = _chosen(view, fit, cells, edges, rule, turn, lane, count)
+    _end(view.pixels, count)
+    return count
+
+
+@kernel
+def _end(pixels: Array, count: int) -> None:
+    """Fill the rest of the last block, so that nothing there is not a number."""
+    for k in range(count, -(-count // row.BLOCK) * row.BLOCK):
+        block, at = pixels[k // row.BLOCK], k % row.BLOCK
+        block[row.X + at], block[row.Y + at], block[row.SEEN + at] = 0.0, 0.0, 0.0
 
 
 @kernel
@@ -55,14 +67,17 @@ def _chosen(
     fit: Array,
     cells: int,
     edges: IntArray,
-    beside_px: float,
+    rule: tuple[float, int],
     turn: int,
     lanes: int,
     count: int,
 ) -> int:
-    """Append those pixels of the room that tell; return how many there are now."""
-    room, half_px = view.room, view.frame[2]
-    _look(room, view.lens, fit, cells, beside_px / half_px, turn)
+    """Append those pixels of the room that tell; return how many there are now.
+
+    The rule says how near an edge pixels tell (px), and among how many flat ones one is taken.
+    """
+    room, half_px, (beside_px, flat) = view.room, view.frame[2], rule
+    _look(room, view.lens, fit, cells, beside_px / half_px, flat, turn)
     _overlook(room, cells, half_px)
     return _keep(room, lanes, edges, view.pixels, count)
 
@@ -75,6 +90,15 @@ def _beside_edges(ink: Array, fit: Array, half_px: float, beside_px: float) -> f
         for i in range(1, len(ink)):
             edges += abs(ink[j, i] - ink[j - 1, i]) + abs(ink[j, i] - ink[j, i - 1])
     return float(edges * cell_px(fit, half_px) * 2 * beside_px)
+
+
+@kernel
+def _flat_among(side_px: float, every: int, wanted: int) -> int:
+    """Return among how many flat pixels one is taken, a power of two."""
+    flat = _FLAT
+    while side_px * side_px > _FLAT_SHARE * wanted * every * flat and flat < 1 << 20:
+        flat *= 2
+    return flat
 
 
 @kernel
@@ -96,7 +120,9 @@ def _edges_at_corners(ink: Array) -> IntArray:
 
 
 @kernel
-def _look(room: Array, lens: Array, fit: Array, cells: int, reach: float, turn: int) -> None:
+def _look(
+    room: Array, lens: Array, fit: Array, cells: int, reach: float, flat: int, turn: int
+) -> None:
     """Write the nearest corner of cells to every pixel, and which edges there would count.
 
     Args:
@@ -105,7 +131,8 @@ def _look(room: Array, lens: Array, fit: Array, cells: int, reach: float, turn: 
         fit: The numbers.
         cells: Along a side of the picture and its quiet zone.
         reach: How near an edge a pixel sees it, half diagonals.
-        turn: Counts blocks, so that flat pixels are not taken from one column.
+        flat: One of so many flat pixels is taken.
+        turn: Which one of them.
     """
     straighten(room, lens)
     write_cells(room, fit)
@@ -120,7 +147,7 @@ def _look(room: Array, lens: Array, fit: Array, cells: int, reach: float, turn: 
         meeting = (2.0 if past_v > 0 else 1.0) if near_u else 0.0
         meeting += (8.0 if past_u > 0 else 4.0) if near_v else 0.0
         meeting = 15.0 if near_u & near_v else meeting
-        meeting += _FLAT if (p + turn) & (_FLAT - 1) == 0 else 0.0
+        meeting += _FLAT if (p + turn) & (flat - 1) == 0 else 0.0
         room[row.CORNER + p] = corner_u + cells * corner_v
         room[row.MEETING + p] = meeting
 

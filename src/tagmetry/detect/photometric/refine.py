@@ -15,23 +15,24 @@ the same idea along the border of tags.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.detect.photometric.bows import believed
 from tagmetry.detect.photometric.fit import EXPONENTS
 from tagmetry.detect.photometric.ink import printed
-from tagmetry.detect.photometric.marker import fit_markers
+from tagmetry.detect.photometric.marker import SETTLED_PX
 from tagmetry.detect.photometric.model import BLACK, BOWS, EXPONENT
 from tagmetry.detect.photometric.start import are_squares, first_fits, frames_of
 from tagmetry.detect.photometric.straight import lenses_around
+from tagmetry.detect.photometric.threads import fit_by_threads
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
 _FLOOR_PX = 0.001  # what the model does not describe
 _LOST_PX = (2.5, 0.05)  # a corner that moved farther was another's; at least, and of the diagonal
 _BOWING_HALF_PX = 21.0  # smaller markers cannot tell a bow from noise
-_SETTLED_PX = 0.05  # in the last round
 _LEAST_CONTRAST = 4.0  # in noises
 _MOST_DEVIATION_PX = 1.5
 
@@ -91,6 +92,7 @@ def fit_pictures(
     corners_px: Array,
     pictures: Sequence[Picture],
     camera: Camera | None = None,
+    threads: int | None = None,
 ) -> Fitted:
     """Fit markers' pictures to an image.
 
@@ -100,25 +102,35 @@ def fit_pictures(
             shape (n, 4, 2).
         pictures: What is printed there, n of them.
         camera: Intrinsics, so that edges are followed along their curves.
+        threads: How many to use at most; by default as many as OpenCV does.
     """
     given_px = np.asarray(corners_px, dtype=np.float64).reshape(-1, 4, 2)
     found = Fitted(given_px, np.tile(np.eye(8), (len(given_px), 1, 1)), are_squares(given_px))
     if not found.sound.any():
         return found
     which = np.flatnonzero(found.sound)
-    fitted = _fitted(grey, given_px[which], [pictures[int(k)] for k in which], camera)
+    kept = [pictures[int(k)] for k in which]
+    threads = cv2.getNumThreads() if threads is None else threads
+    fitted = _fitted(grey, given_px[which], kept, camera, threads)
     return found.with_some(which, fitted)
 
 
 def _fitted(
-    grey: GreyPixels, corners_px: Array, pictures: Sequence[Picture], camera: Camera | None
+    grey: GreyPixels,
+    corners_px: Array,
+    pictures: Sequence[Picture],
+    camera: Camera | None,
+    threads: int,
 ) -> Fitted:
     """Fit the pictures of markers whose first corners are squares."""
     frames = frames_of(corners_px)
     half_px = frames[:, 2]
     bowing = (half_px >= _BOWING_HALF_PX) & (camera is None)
-    fits, places, joints, noises, moves_px = _fit_all(
-        grey, corners_px, pictures, frames, camera, bowing
+    lenses, inks = lenses_around(camera, frames), [picture.ink for picture in pictures]
+    squares = _squares(inks, pictures)
+    starts = first_fits(corners_px, frames, lenses, squares)
+    fits, places, joints, noises, moves_px = fit_by_threads(
+        grey, inks, (starts, frames, lenses, squares, bowing), threads
     )
     sound = _explains(fits, noises, moves_px)
     covariances = joints[:, :8, :8].copy()
@@ -133,28 +145,17 @@ def _fitted(
     return Fitted(np.where(sound[:, None, None], moved_px, corners_px), covariances_px2, sound)
 
 
-def _fit_all(
-    grey: GreyPixels,
-    corners_px: Array,
-    pictures: Sequence[Picture],
-    frames: Array,
-    camera: Camera | None,
-    bowing: BoolArray,
-) -> tuple[Array, Array, Array, Array, Array]:
-    lenses = lenses_around(camera, frames)
-    inks = [picture.ink for picture in pictures]
-    sizes, sides = np.array([(len(k), p.side_cells) for k, p in zip(inks, pictures, strict=True)]).T
-    first = 0.5 * (sizes - sides)
-    squares = np.stack([first, first + sides], axis=1)
-    starts = first_fits(corners_px, frames, lenses, squares)
-    flat = np.concatenate([ink.ravel() for ink in inks])
-    return fit_markers(grey, flat, sizes.copy(), starts, frames, lenses, squares, bowing)
+def _squares(inks: Sequence[Array], pictures: Sequence[Picture]) -> Array:
+    """Return the first and last cell coordinate of the squares, shape (n, 2)."""
+    cells = np.array([len(ink) for ink in inks])
+    sides = np.array([picture.side_cells for picture in pictures])
+    return np.stack([0.5 * (cells - sides), 0.5 * (cells + sides)], axis=1)
 
 
 def _explains(fits: Array, noises: Array, moves_px: Array) -> BoolArray:
     """Say which fits settled on a picture whose contrast stands out of the noise, shape (n,)."""
     contrast = 255 * np.abs(fits[:, BLACK + 1] - fits[:, BLACK])
-    sound = (moves_px < _SETTLED_PX) & (contrast > _LEAST_CONTRAST * noises)
+    sound = (moves_px < SETTLED_PX) & (contrast > _LEAST_CONTRAST * noises)
     exponent = fits[:, EXPONENT]
     return np.asarray(sound & (exponent > EXPONENTS[0]) & (exponent < EXPONENTS[1]))
 

@@ -40,9 +40,12 @@ def first_fits(corners_px: Array, frames: Array, lenses: Array, squares: Array) 
     cells[:, 0, 0] = cells[:, 1, 1] = squares[:, 1] - squares[:, 0]
     cells[:, 0, 2] = cells[:, 1, 2] = squares[:, 0]
     cells[:, 2, 2] = 1.0
-    G = cells @ np.linalg.inv(square_to_quad(_straightened(places, lenses)))
+    H = square_to_quad(_straightened(places, lenses))
     fits = np.zeros((len(places), COUNT))
-    fits[:, :8] = (G / G[:, 2:, 2:]).reshape(-1, 9)[:, :8]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        H[~(np.abs(np.linalg.det(H)) > 0)] = np.nan  # which a fit gives up
+        G = cells @ np.linalg.inv(H)
+        fits[:, :8] = (G / G[:, 2:, 2:]).reshape(-1, 9)[:, :8]
     return fits
 
 
