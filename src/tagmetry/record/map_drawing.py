@@ -83,6 +83,7 @@ def _same_scale(axes: Any, points_m: Array) -> None:  # noqa: ANN401 (its 3-D ax
         zlim=(middle[2] - half[2], middle[2] + half[2]),
     )
     axes.set_box_aspect(tuple(half))
+    axes.locator_params(axis="z", nbins=4)
 
 
 def _ellipse_m(center_m: Array, covariance_m2: Array) -> Array:
