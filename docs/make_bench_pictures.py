@@ -72,7 +72,7 @@ def pages(results: Results) -> dict[str, str]:
         "goals": goal_table(results),
         "times": by_case(results, TIMED, time_cell),
         "films": by_case(results, FILMS, time_cell),
-        "threads": by_case(results, (*TIMED, *FILMS), time_cell, threads=most),
+        "threads": by_case(results, TIMED + FILMS, time_cell, most) if most > 1 else NOT_MEASURED,
         "sides": by_case(results, SIDES, error_cell) + bound_line(results, SIDES),
         "others": by_case(results, OTHERS, error_cell) + bound_line(results, OTHERS),
         "found": by_case(results, SIDES, found_cell),
