@@ -153,6 +153,8 @@ def real_cell(row: Row) -> str:
 
 def cost_table(results: Results) -> str:
     """Return what an image, a megapixel and a marker cost, and the memory that it took."""
+    if not results.costs:
+        return NOT_MEASURED
     lines = [
         "| one thread | ms per image | ms per megapixel | ms per marker | misfit | memory |",
         "|---|---|---|---|---|---|",

@@ -56,13 +56,19 @@ def _times(results: Results) -> Iterator[Goal]:
         ours, peers = _ours(results, case), _peers(results, case)
         fair = [row.p50_ms for row in peers if row.p50_ms and row.found == row.expected]
         if ours and ours.p50_ms and fair:
-            yield Goal(f"{case}: time by the fastest peer's", ours.p50_ms / min(fair), 0.2)
+            yield Goal(
+                f"{case}: time, as a share of the fastest peer's", ours.p50_ms / min(fair), 0.2
+            )
 
 
 def _tracking(results: Results) -> Iterator[Goal]:
     ours, tracker = _ours(results, "film-24"), results.of("film-24", TRACKER, 1)
     if ours and tracker and ours.p50_ms and tracker.p50_ms:
-        yield Goal("film-24: tracker's time by the detector's", tracker.p50_ms / ours.p50_ms, 0.25)
+        yield Goal(
+            "film-24: tracker's time, as a share of the detector's",
+            tracker.p50_ms / ours.p50_ms,
+            0.25,
+        )
     for row in results.rows:
         if (row.case, row.engine) == ("film-360", TRACKER) and row.threads > 1 and row.p50_ms:
             yield Goal("film-360: images a second, all threads", 1000 / row.p50_ms, 60.0, True)
@@ -87,7 +93,7 @@ def _corners(results: Results) -> Iterator[Goal]:
         peers_px = [row.corner_rms_px for row in _peers(results, case) if row.corner_rms_px]
         if ours and ours.corner_rms_px and peers_px:
             share = ours.corner_rms_px / min(peers_px)
-            yield Goal(f"{case}: corners by the best peer's", share, 0.2)
+            yield Goal(f"{case}: corners, as a share of the best peer's", share, 0.2)
 
 
 def _covariances(results: Results) -> Iterator[Goal]:
