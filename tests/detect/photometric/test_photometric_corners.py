@@ -93,7 +93,14 @@ def test_covariance_everywhere(
 
 @pytest.mark.parametrize(
     ("name", "marker_id"),
-    [("4x4_50", 3), ("tag16h5", 5), ("tag36h11_border2", 2), ("aruco_mip_36h12", 9)],
+    [
+        ("4x4_50", 3),
+        ("tag16h5", 5),
+        ("tag36h11_border2", 2),
+        ("aruco_mip_36h12", 9),
+        ("tagStandard41h12", 5),
+        ("tagCircle49h12", 5),
+    ],
 )
 def test_other_families(name: str, marker_id: int) -> None:
     rows = errors(12, 6, side_px=60.0, noise=5.0, name=name, marker_id=marker_id)
