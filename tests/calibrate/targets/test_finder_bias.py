@@ -31,7 +31,7 @@ def inward_px(board: Board, shown: Picture, errors_px: Array) -> float:
     Where a curve turns to y from x, its inside lies to that side of the step.
     """
     truth_px = shown.truth_px
-    bends = line_bends(board.corners_m[:, :2], truth_px)
+    bends = line_bends(board.corners_m[:, :2], truth_px).values
     grid_px = truth_px.reshape(6, -1, 2)
     inward = 0.0
     for axis, bend in ((1, bends[:, 0]), (0, bends[:, 1])):

@@ -5,11 +5,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tagmetry.calibrate.targets.bends import line_bends
+from tagmetry.calibrate.targets import bends as subject
 from tagmetry.geometry import Array, apply_homography
 
 ROW, COLUMN = np.divmod(np.arange(54), 9)
 PLACES = np.stack([COLUMN, -ROW], axis=1) * 0.025
+
+
+def line_bends(places: Array, corners_px: Array) -> Array:
+    return subject.line_bends(places, corners_px).values
 
 
 def arcs(radius_px: float = 500.0) -> Array:
@@ -100,3 +104,13 @@ def test_a_single_row_tells_of_rows_only() -> None:
     found = line_bends(PLACES[:9], arcs()[:9])
     np.testing.assert_allclose(found[:, 0], -1 / 500, rtol=1e-3)
     np.testing.assert_array_equal(found[:, 1], 0)
+
+
+def test_where_the_lens_bends_as_nowhere_else_it_is_in_doubt() -> None:
+    """The picture's rim is pushed out by a step within the last square."""
+    corners_px = seen_by_a_lens(PLACES)
+    usual = subject.line_bends(PLACES, corners_px).doubts
+    wild = corners_px + np.where(COLUMN == 8, 2.0, 0.0)[:, None] * [0.3, 1.0]
+    doubts = subject.line_bends(PLACES, wild).doubts
+    assert np.abs(usual).max() < 0.15 * np.abs(true_bends(PLACES)).max()
+    assert doubts[COLUMN == 8, 0].min() > 3 * usual[:, 0].max()

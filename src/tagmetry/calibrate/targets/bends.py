@@ -22,24 +22,41 @@ _DEGREE = 3
 _SAMPLES_TO_A_TERM = 2
 
 
-def line_bends(places: Array, corners_px: Array) -> Array:
-    """Return the curvature of the board's lines at its corners, shape (n, 2), 1 / px.
+@dataclass(frozen=True, eq=False)
+class Bends:
+    """Curvatures of the line to the right and of that down, at n corners.
+
+    Attributes:
+        values: Positive where a line turns from the picture's x to its y, shape (n, 2), 1 / px.
+        doubts: How far they may be off: what polynomials of one degree less would say otherwise,
+            shape (n, 2), 1 / px. It is large where a curve is continued to the board's border
+            behind a lens that bends there as nowhere else.
+    """
+
+    values: Array
+    doubts: Array
+
+
+def line_bends(places: Array, corners_px: Array) -> Bends:
+    """Return the curvature of the board's lines at its corners.
 
     Args:
         places: x to the board's right and y to its top, shape (n, 2), in any unit.
         corners_px: Where the picture shows them, shape (n, 2).
 
     Returns:
-        Of the line to the right and of that down; positive where it turns from the picture's x to
-        its y. Zero where no three corners lie on a line.
+        The curvatures; zero where no three corners lie on a line.
     """
     if len(places) < 3:
-        return np.zeros((len(places), 2))
+        return Bends(np.zeros((len(places), 2)), np.zeros((len(places), 2)))
     unit = _centred(places)
-    rightward = _smooth(_sampled(unit, corners_px), unit)
     turned = np.stack([-unit[:, 1], unit[:, 0]], axis=1)
-    downward = _smooth(_sampled(turned, corners_px), turned)
-    return np.stack([rightward, downward], axis=1)
+    both = [(_sampled(along, corners_px), along) for along in (unit, turned)]
+    values, simpler = (
+        np.stack([_smooth(samples, along, degree) for samples, along in both], axis=1)
+        for degree in (_DEGREE, _DEGREE - 1)
+    )
+    return Bends(values, np.abs(values - simpler))
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,9 +98,9 @@ def _triples(places: Array) -> Iterator[tuple[int, int, int]]:
         yield from zip(ordered, ordered[1:], ordered[2:], strict=False)
 
 
-def _smooth(samples: _Samples, places: Array) -> Array:
+def _smooth(samples: _Samples, places: Array, degree: int) -> Array:
     """Return the curvature at places by the polynomial that fits the samples best."""
-    powers = _powers(samples)
+    powers = _powers(samples, degree)
     if not powers:
         return np.zeros(len(places))
     equations = _terms(samples.places, powers) * samples.weights[:, None]
@@ -91,10 +108,10 @@ def _smooth(samples: _Samples, places: Array) -> Array:
     return np.asarray(_terms(places, powers) @ fitted)
 
 
-def _powers(samples: _Samples) -> list[tuple[int, int]]:
-    """Return the powers of x and y that so many samples on so many lines can tell."""
+def _powers(samples: _Samples, most: int) -> list[tuple[int, int]]:
+    """Return the powers of x and y, at most of a degree, that so many samples can tell."""
     along, across = (len(np.unique(np.rint(column * 1e6))) for column in samples.places.T)
-    for degree in range(_DEGREE, -1, -1):
+    for degree in range(most, -1, -1):
         powers = [
             (i, j)
             for i in range(min(degree + 1, along))

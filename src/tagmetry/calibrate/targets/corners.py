@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tagmetry.calibrate.targets.bends import line_bends
+from tagmetry.calibrate.targets.bends import Bends, line_bends
 from tagmetry.calibrate.targets.found import DroppedPoint, Found, dropped
 from tagmetry.calibrate.targets.saddles import Saddles, fit_saddles
+from tagmetry.calibrate.targets.window import MOST_HALF_PX
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
@@ -76,7 +77,8 @@ def refined(
     straight = _fitted(grey, _Corners(guesses, coarse_px), half, arm)
     guesses = _moved(guesses, straight)
     bends = line_bends(guesses.places, guesses.corners_px)
-    bent = _fitted(grey, _Corners(guesses, coarse_px, bends), half, arm)
+    bent = _fitted(grey, _Corners(guesses, coarse_px, bends.values), half, arm)
+    bent = _doubted(bent, guesses, bends, half)
     return replace(bent, dropped=(*outside, *straight.dropped, *bent.dropped))
 
 
@@ -103,6 +105,16 @@ def _moved(guesses: Guesses, found: Found) -> Guesses:
     """Return the guesses that were found, where they were found."""
     kept = guesses.only(np.searchsorted(guesses.points, found.points))
     return replace(kept, corners_px=found.corners_px)
+
+
+def _doubted(found: Found, guesses: Guesses, bends: Bends, half: float) -> Found:
+    """Add to the corners' deviations how far a wrong curvature of their edges would pull them."""
+    kept = np.searchsorted(guesses.points, found.points)
+    steps_px = np.stack([guesses.along_px, guesses.down_px], axis=1)[kept]
+    reach_px = np.minimum(half * np.linalg.norm(steps_px, axis=-1), MOST_HALF_PX)
+    pulled_px = bends.doubts[kept] * reach_px**2 / 6
+    variance = found.sd_px**2 + (pulled_px**2).mean(axis=1)
+    return replace(found, sd_px=np.sqrt(variance))
 
 
 def _fitted(grey: GreyPixels, corners: _Corners, half: float, arm: float) -> Found:

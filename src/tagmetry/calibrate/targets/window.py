@@ -9,7 +9,7 @@ from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 
 _LEAST_HALF_PX = 2.0
-_MOST_HALF_PX = 16.0  # longer edges tell little more and cost time, but for
+MOST_HALF_PX = 16.0  # longer edges tell little more and cost time, but for
 _MOST_HALF = 0.12  # so much of a step: pictures with steps of hundreds of pixels are blurred
 _LEAST_AREA_PX2 = 1e-6
 
@@ -51,7 +51,7 @@ def pixels_around(
 @njit(cache=True, nogil=True)
 def _limit(half: float, length_px: float) -> float:
     """Return half the side as a share of a step of some length."""
-    most = max(_MOST_HALF_PX / length_px, _MOST_HALF)
+    most = max(MOST_HALF_PX / length_px, _MOST_HALF)
     return min(max(half, _LEAST_HALF_PX / length_px), most)
 
 
