@@ -8,6 +8,7 @@ from tagmetry.errors import InputError
 from tagmetry.geometry import mahalanobis_squared, perturb_pose, pose_difference
 from tagmetry.localize import CameraHypothesis, CameraPose, Localizer, MarkerMap
 from tagmetry.localize.filter import Motion, PoseFilter, Speeds
+from tagmetry.localize.filter.branch import Branch
 
 NOISE = np.diag([0.01, 0.01, 0.01, 0.005, 0.005, 0.005]) ** 2
 MOTION = Motion(0.8, 0.6)
@@ -204,3 +205,18 @@ def test_a_camera_that_drives_past_ambiguous_markers():
 def test_refuses_what_is_no_motion(make, why):
     with pytest.raises(InputError, match=why):
         make()
+
+
+def test_a_known_way_and_a_measured_speed_tell_the_heading():
+    """A camera that drives along x as it sees itself drive ahead looks along x."""
+    truth = camera_at(0, 0, 1)
+    off = perturb_pose(truth, np.array([0, 0, 0, 0, 0, 0.05]))
+    covariance = np.diag([1e-4] * 3 + [1e-8, 1e-8, 0.1**2])
+    branch = Branch.at_rest(off, covariance, 1.0)
+    known = branch.covariance.copy()
+    known[6:9, 6:9] = 1e-8 * np.eye(3)
+    branch = replace(branch, speed_m_s=np.array([1.0, 0, 0]), covariance=known)
+    found = Speeds(np.array([0, 0, 1.0]), 0.001).corrected(branch)
+    turned = pose_difference(found.T_world_camera, truth)[3:]
+    np.testing.assert_allclose(turned, 0, atol=2e-3)
+    assert np.sqrt(found.covariance[5, 5]) < 0.002
