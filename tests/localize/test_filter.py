@@ -1,5 +1,7 @@
 """The filter: calibrated, deaf to wild images, true to both poses of a marker, and late ones."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from marked_world import VGA, camera_at, seen_by, wall_marker
