@@ -84,7 +84,7 @@ def test_markers_on_a_plane(count: int | None) -> None:
     """Blurred markers of 200 to 400 px; the list is OpenCV's whole contour pixels, up to 4 px off.
 
     They lie inside the edges, and the more so as the camera's response widens what is white: the
-    side fit, which follows it, is 1.15 px away from them, the whole picture's fit, which is found for
+    side fit, which follows it, is 1.15 px away from them, the whole picture's fit, now found for
     all of them now, 2.3 px outward.
     How much of it is ours is told by `test_corners_agree_between_pictures_of_a_plane`.
     """
