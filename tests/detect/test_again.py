@@ -17,35 +17,46 @@ LONE = squares_at((200, 200, 60), (600, 300, 60), (1400, 800, 60))
 
 
 def test_it_is_looked_everywhere_where_no_marker_was_found() -> None:
-    assert again(squares_at(), squares_at(), SHAPE) == Box(0, 0, 1920, 1080)
-    assert again(squares_at(), LONE, SHAPE) == Box(0, 0, 1920, 1080)
+    assert again(squares_at(), squares_at(), squares_at(), SHAPE) == Box(0, 0, 1920, 1080)
+    assert again(squares_at(), LONE, LONE, SHAPE) == Box(0, 0, 1920, 1080)
 
 
 def test_markers_that_stand_alone_are_not_looked_at_again() -> None:
-    assert again(LONE, LONE, SHAPE) is None
+    assert again(LONE, LONE, LONE, SHAPE) is None
     within = squares_at((210, 190, 15), (600, 300, 45))  # a black cell, a border's inside
-    assert again(LONE, np.concatenate([LONE, within]), SHAPE) is None
+    assert again(LONE, LONE, np.concatenate([LONE, within]), SHAPE) is None
 
 
 def test_the_surroundings_of_neighbours_are_looked_at_again() -> None:
     beside = squares_at((260, 260, 20))
-    box = again(LONE, np.concatenate([LONE, beside]), SHAPE)
+    both = np.concatenate([LONE, beside])
+    box = again(LONE, both, both, SHAPE)
     assert box == Box(50, 50, 351, 351)  # two sides around the marker, but within the image
     corner = squares_at((40, 1060, 60))
-    box = again(corner, np.concatenate([corner, squares_at((110, 1060, 60))]), SHAPE)
+    both = np.concatenate([corner, squares_at((110, 1060, 60))])
+    box = again(corner, both, both, SHAPE)
     assert box == Box(0, 910, 191, 1080)
+
+
+def test_blots_count_where_they_touch_a_markers_corner() -> None:
+    beside = np.concatenate([LONE, squares_at((260, 200, 20))])  # ten pixels from its side
+    assert again(LONE, LONE, beside, SHAPE) is None
+    dots = np.concatenate([LONE, squares_at((239, 239, 18))])
+    assert again(LONE, LONE, dots, SHAPE) == Box(50, 50, 351, 351)
 
 
 def test_neighbours_of_few_markers_are_clutter() -> None:
     many = squares_at(*((100.0 + 200 * k, 500.0, 60.0) for k in range(9)))
     beside = squares_at((170, 500, 30))
-    assert again(many, np.concatenate([many, beside]), SHAPE) is None
+    both = np.concatenate([many, beside])
+    assert again(many, both, both, SHAPE) is None
 
 
 def test_it_is_looked_everywhere_where_squares_outnumber_markers() -> None:
     others = squares_at(*((100.0 + 40 * k, 900.0, 20.0) for k in range(6)))
-    assert again(LONE, np.concatenate([LONE, others]), SHAPE) == Box(0, 0, 1920, 1080)
-    assert again(LONE, np.concatenate([LONE, others[:5]]), SHAPE) is None
+    both = np.concatenate([LONE, others])
+    assert again(LONE, both, both, SHAPE) == Box(0, 0, 1920, 1080)
+    assert again(LONE, both[:-1], both, SHAPE) is None
 
 
 def test_a_box_cuts_its_part_out_of_an_image() -> None:

@@ -1,9 +1,9 @@
 """Where a second, thorough look is worth its time.
 
 Markers that stand alone are found at a glance. Those of boards may touch each other or what lies
-between them, so where many markers have neighbours it is looked for more around these. Where there
-is no marker, or far more squares than markers, something about them may be hard to see: it is
-looked everywhere.
+between them, so where many markers have neighbours it is looked for more around these: pictures in
+borders beside them, or squares that touch their corners. Where there is no marker, or far more
+pictures than markers, something about them may be hard to see: it is looked everywhere.
 """
 
 from dataclasses import dataclass
@@ -12,10 +12,13 @@ import numpy as np
 
 from tagmetry.detect.sample import side_lengths
 from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import BoolArray
 
 _NEAR = 0.75, 1.6  # from centre to centre by the marker's side; closer is within it
-_UNREAD = 2  # as many other squares for each marker are far more
+_UNREAD = 2  # as many other pictures for each marker are far more
 _OF_A_SIZE = 0.2, 2.5  # a neighbour's side by the marker's
+_TOUCHING_FROM = 0.6  # of a marker's side, from centre to centre
+_TOUCHING = 0.15  # of a marker's side, from corner to corner
 _OF_BOARDS = 0.25  # so many of the markers have neighbours where there are boards
 _AROUND = 2.0  # sides around them that are looked at again
 
@@ -44,30 +47,61 @@ class Box:
         )
 
 
-def again(markers_px: Array, squares_px: Array, shape: tuple[int, int]) -> Box | None:
+def again(
+    markers_px: Array, pictures_px: Array, squares_px: Array, shape: tuple[int, int]
+) -> Box | None:
     """Return where to look again; None when it is not worth it.
 
     Args:
         markers_px: Corners of the markers found so far, shape (m, 4, 2).
+        pictures_px: Corners of all squares with something printed in a border, shape (k, 4, 2).
         squares_px: Corners of all squares found so far, shape (n, 4, 2).
         shape: Height and width of the image.
     """
     height, width = shape
-    sides = side_lengths(markers_px).mean(axis=1)[:, None]
-    ratio = side_lengths(squares_px).mean(axis=1) / sides
-    apart = squares_px.mean(axis=1) - markers_px.mean(axis=1)[:, None]
-    apart_by_side = np.linalg.norm(apart, axis=2) / sides
-    unread = (apart_by_side > _NEAR[0]).all(axis=0).sum()
+    unread = (_apart_by_side(markers_px, pictures_px) > _NEAR[0]).all(axis=0).sum()
     if unread >= _UNREAD * len(markers_px):
         return Box(0, 0, width, height)
-    near = (apart_by_side > _NEAR[0]) & (apart_by_side < _NEAR[1])
-    near &= (ratio > _OF_A_SIZE[0]) & (ratio < _OF_A_SIZE[1])
-    crowded = near.any(axis=1)
+    crowded = _beside(markers_px, pictures_px) | _touched(markers_px, squares_px)
     if crowded.sum() < _OF_BOARDS * len(markers_px) or not crowded.any():
         return None
-    around = _AROUND * sides[crowded]
+    around = _AROUND * side_lengths(markers_px[crowded]).mean(axis=1)[:, None]
     low = (markers_px[crowded].min(axis=1) - around).min(axis=0)
     high = (markers_px[crowded].max(axis=1) + around).max(axis=0)
     left, top = np.maximum(low, 0).astype(int).tolist()
     right, bottom = np.minimum(high + 1, [width, height]).astype(int).tolist()
     return Box(left, top, right, bottom)
+
+
+def _beside(markers_px: Array, pictures_px: Array) -> BoolArray:
+    """Say which markers have a picture of about their size beside them, shape (m,)."""
+    apart = _apart_by_side(markers_px, pictures_px)
+    ratio = _ratio(markers_px, pictures_px)
+    near = (apart > _NEAR[0]) & (apart < _NEAR[1])
+    return np.asarray((near & (ratio > _OF_A_SIZE[0]) & (ratio < _OF_A_SIZE[1])).any(axis=1))
+
+
+def _touched(markers_px: Array, squares_px: Array) -> BoolArray:
+    """Say which markers touch another square's corner with one of theirs, shape (m,)."""
+    outside = _apart_by_side(markers_px, squares_px) > _TOUCHING_FROM
+    outside &= _ratio(markers_px, squares_px) > _OF_A_SIZE[0]
+    marker, square = np.nonzero(outside & (_apart_by_side(markers_px, squares_px) < _NEAR[1]))
+    between = markers_px[marker][:, :, None] - squares_px[square][:, None]
+    apart_px = np.linalg.norm(between, axis=3).min(axis=(1, 2))
+    touched = np.zeros(len(markers_px), dtype=bool)
+    touched[marker[apart_px < _TOUCHING * side_lengths(markers_px).mean(axis=1)[marker]]] = True
+    return touched
+
+
+def _apart_by_side(markers_px: Array, others_px: Array) -> Array:
+    """Return distances from centre to centre by the marker's side, shape (m, n)."""
+    apart = others_px.mean(axis=1) - markers_px.mean(axis=1)[:, None]
+    return np.asarray(
+        np.linalg.norm(apart, axis=2) / side_lengths(markers_px).mean(axis=1)[:, None]
+    )
+
+
+def _ratio(markers_px: Array, others_px: Array) -> Array:
+    """Return sides of squares by those of markers, shape (m, n)."""
+    sides_px = side_lengths(markers_px).mean(axis=1)[:, None]
+    return np.asarray(side_lengths(others_px).mean(axis=1) / sides_px)

@@ -23,6 +23,7 @@ _LEAST_CONTRAST = 8.0  # grey values between black and white
 _BORDER_ERRORS = 0.2  # share of border cells that may read white
 _OUTSIDE_CELLS = 0.35  # how far outside the border white is looked for
 _EDGE_CELLS = 0.3  # how far inside and outside a side the image must differ
+_LEAST_WHITE = 0.1  # share of the bits; pictures have some white in them
 _LEAST_OUTLINE = 0.3  # share of the contrast by which it must
 _SHARPEN = 0.25  # share of the difference to each neighbour that is added
 _TAP_CELLS = 0.17  # how far from a cell's centre its four taps are
@@ -178,6 +179,11 @@ def free_colours(grey: GreyPixels, corners_px: Array, layout: Layout) -> BoolArr
 def has_border(reading: Reading) -> bool:
     """Say whether enough of the frame's cells read as they are printed."""
     return reading.border_share >= 1 - _BORDER_ERRORS
+
+
+def has_picture(reading: Reading) -> bool:
+    """Say whether something is printed inside: a blot is black all over."""
+    return bool((reading.margins > 0).mean() >= _LEAST_WHITE)
 
 
 def has_outline(reading: Reading) -> bool:

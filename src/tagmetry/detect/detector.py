@@ -18,7 +18,7 @@ from tagmetry.detect.choose import (
     distinct_rejections,
     with_duplicates_marked,
 )
-from tagmetry.detect.decode import read
+from tagmetry.detect.decode import Reading, has_picture, read
 from tagmetry.detect.detection import Detection, Findings, Rejection
 from tagmetry.detect.exact import exact_corners
 from tagmetry.detect.expected import expected_picture
@@ -80,8 +80,8 @@ class Detector:
         grey = self._checked(image, camera)
         found = squares(grey, self.min_side_px or default_min_side_px(grey.size), bright=True)
         judged = list(self._judged(grey, found, every=True))
-        candidates = [verdict for _, verdict in judged if isinstance(verdict, Candidate)]
-        rejections = [Rejection(at, reason) for at, reason in judged if isinstance(reason, str)]
+        candidates = [verdict for *_, verdict in judged if isinstance(verdict, Candidate)]
+        rejections = [Rejection(at, reason) for at, _, reason in judged if isinstance(reason, str)]
         detections = _detections(grey, best_per_place(candidates), camera)
         return Findings(detections, distinct_rejections(rejections, detections))
 
@@ -104,19 +104,19 @@ class Detector:
         bright = self.rules.inverted or self._has_white_borders
         least_px = self.min_side_px or default_min_side_px(grey.size)
         if grey.size <= _SMALL_IMAGE_PX:
-            return self._read(grey, squares(grey, least_px, bright=bright))
+            return self._read(grey, squares(grey, least_px, bright=bright))[0]
         found = squares_at_a_glance(grey, least_px, bright=bright)
-        candidates = self._read(grey, found)
+        candidates, pictures_px = self._read(grey, found)
         looked_at = Box(0, 0, 0, 0)
         for _ in range(_LOOKS_AGAIN):
             markers_px = np.array([one.corners_px for one in candidates]).reshape(-1, 4, 2)
-            box = again(markers_px, found.corners_px, grey.shape)
+            box = again(markers_px, pictures_px, found.corners_px, grey.shape)
             if box is None or looked_at.holds(box):
                 break
             part = np.ascontiguousarray(grey[box.rows_and_columns])
-            more = squares(part, least_px, bright=bright).moved(box.left_px, box.top_px)
-            candidates = candidates + self._read(grey, more)
-            found, looked_at = found.joined(more), box
+            found = squares(part, least_px, bright=bright).moved(box.left_px, box.top_px)
+            more, pictures_px = self._read(grey, found)
+            candidates, looked_at = candidates + more, box
         return candidates
 
     @cached_property
@@ -125,8 +125,8 @@ class Detector:
 
     def _judged(
         self, grey: GreyPixels, found: Squares, *, every: bool
-    ) -> Iterator[tuple[Array, Candidate | str]]:
-        """Give squares, each with the marker that it shows or the reason why it shows none.
+    ) -> Iterator[tuple[Array, Reading | None, Candidate | str]]:
+        """Give squares, how each reads, and the marker that it shows or the reason why none.
 
         Of those without a border nothing is said unless every square is asked for.
         """
@@ -135,13 +135,19 @@ class Detector:
             corners_px, is_bright = found.corners_px[here], found.is_bright[here]
             readings = read(grey, corners_px, layout)
             for i in range(len(readings)) if every else readings.bordered.tolist():
-                verdict = self.rules.judge(corners_px[i], bool(is_bright[i]), readings[i], families)
-                yield corners_px[i], verdict
+                reading = readings[i]
+                verdict = self.rules.judge(corners_px[i], bool(is_bright[i]), reading, families)
+                yield corners_px[i], reading, verdict
 
-    def _read(self, grey: GreyPixels, found: Squares) -> list[Candidate]:
-        """Return those squares that read as markers."""
-        judged = self._judged(grey, found, every=False)
-        return [verdict for _, verdict in judged if isinstance(verdict, Candidate)]
+    def _read(self, grey: GreyPixels, found: Squares) -> tuple[list[Candidate], Array]:
+        """Return the squares that read as markers, and where there is a picture in a border."""
+        candidates, pictures_px = [], [np.empty((0, 4, 2))]
+        for corners_px, reading, verdict in self._judged(grey, found, every=False):
+            if reading is not None and has_picture(reading):
+                pictures_px.append(corners_px[None])
+            if isinstance(verdict, Candidate):
+                candidates.append(verdict)
+        return candidates, np.concatenate(pictures_px)
 
 
 def _detections(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tagmetry.camera import Camera
-from tagmetry.detect.segment import Squares, squares, squares_at_a_glance
+from tagmetry.detect.segment import squares, squares_at_a_glance
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import MountedMarker, marker_corners_m
@@ -75,9 +75,6 @@ def test_squares_of_a_part_are_moved_to_where_they_are() -> None:
     grey, truth_px = scene(60.0, 1)
     part = squares(np.ascontiguousarray(grey[3:, 5:]), 8.0, bright=True).moved(5, 3)
     assert error_px(part.corners_px, truth_px) < 0.5
-    none = Squares(np.empty((0, 4, 2)), np.empty(0, dtype=bool))
-    np.testing.assert_array_equal(none.joined(part).corners_px, part.corners_px)
-    np.testing.assert_array_equal(part.joined(none).is_bright, part.is_bright)
 
 
 def test_corners_go_clockwise_as_seen() -> None:

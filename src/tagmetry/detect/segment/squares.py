@@ -45,13 +45,6 @@ class Squares:
         """Return them in an image that this one was cut out of."""
         return Squares(self.corners_px + np.array([right_px, down_px]), self.is_bright)
 
-    def joined(self, more: "Squares") -> "Squares":
-        """Return these and more."""
-        return Squares(
-            np.concatenate([self.corners_px, more.corners_px]),
-            np.concatenate([self.is_bright, more.is_bright]),
-        )
-
 
 def squares(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
     """Return outlines with four sides; squares that two looks saw differently are there twice.
