@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from tagmetry.errors import InputError as InputError
     from tagmetry.files import load_camera as load_camera
     from tagmetry.files import save_camera as save_camera
+    from tagmetry.files.maps import load_map as load_map
+    from tagmetry.localize import CameraPose as CameraPose
+    from tagmetry.localize import Localizer as Localizer
+    from tagmetry.localize import MarkerMap as MarkerMap
     from tagmetry.markers import MarkerFamily as MarkerFamily
     from tagmetry.markers import family as family
     from tagmetry.pose import MarkerPose as MarkerPose
@@ -23,28 +27,35 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "Camera": "camera",
+    "CameraPose": "localize",
     "Detection": "detect",
     "Detector": "detect",
     "Image": "camera",
     "InputError": "errors",
+    "Localizer": "localize",
     "MarkerFamily": "markers",
+    "MarkerMap": "localize",
     "MarkerPose": "pose",
     "Tracker": "detect",
     "estimate_body_pose": "pose",
     "estimate_pose": "pose",
     "family": "markers",
     "load_camera": "files",
+    "load_map": "files.maps",
     "open_source": "sources",
     "save_camera": "files",
 }
 
 __all__ = [
     "Camera",
+    "CameraPose",
     "Detection",
     "Detector",
     "Image",
     "InputError",
+    "Localizer",
     "MarkerFamily",
+    "MarkerMap",
     "MarkerPose",
     "Tracker",
     "__version__",
@@ -52,6 +63,7 @@ __all__ = [
     "estimate_pose",
     "family",
     "load_camera",
+    "load_map",
     "open_source",
     "save_camera",
 ]
