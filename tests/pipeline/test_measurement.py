@@ -104,7 +104,9 @@ def test_explains_the_same_markers(image: Image) -> None:
     findings = task.explain(image)
     result = task.result(image, findings.detections)
     for a, b in zip(result.markers, task.measure(image).markers, strict=True):
-        np.testing.assert_array_equal(a.detection.corners_px, b.detection.corners_px)
+        assert (a.detection.family, a.detection.id) == (b.detection.family, b.detection.id)
+        # Explaining looks at more squares, so the fit begins elsewhere.
+        np.testing.assert_allclose(a.detection.corners_px, b.detection.corners_px, atol=1e-3)
 
 
 @pytest.mark.parametrize("sizes_m", [0.0, -0.1, float("nan"), float("inf"), {3: 0.1, 4: 0.0}])

@@ -53,7 +53,8 @@ def check_print_aspect(calibration: Calibration) -> tuple[BoardAdvice, ...]:
     if covariance is None:
         return ()
     to_ratio = np.array([1 / fy, -fx / fy**2])
-    sd = float(np.sqrt(to_ratio @ covariance[:2, :2] @ to_ratio))
+    variance = float(to_ratio @ covariance[:2, :2] @ to_ratio)
+    sd = np.sqrt(max(variance, 0.0))  # where the aspect was held, rounding may go below
     if abs(fx / fy - 1) < max(_SQUARE_PIXELS, 4 * sd):
         return ()
     return (
