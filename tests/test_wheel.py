@@ -49,7 +49,7 @@ def test_installs_the_command(wheel: ZipFile) -> None:
 def test_says_what_it_needs(wheel: ZipFile) -> None:
     metadata = read_metadata(wheel)
     assert metadata["Requires-Python"] == [">=3.11"]
-    assert metadata["License-Expression"] == ["Apache-2.0"]
+    assert metadata["License-Expression"] == ["Apache-2.0 AND BSD-2-Clause"]
     extras = {"all", "bench", "cluster", "parquet", "print", "report", "video"}
     assert set(metadata["Provides-Extra"]) == extras
 
