@@ -8,8 +8,8 @@ import numpy as np
 
 from tagmetry.lab.beside.seed002_tilt import conclude
 from tagmetry.lab.experiment import Experiment
-from tagmetry.lab.rigs.localized import Shown, localized, method_names
-from tagmetry.lab.rigs.marker_floor import LookName, Stand, camera_place, picture
+from tagmetry.lab.rigs.localized import localized_repeatedly, method_names
+from tagmetry.lab.rigs.marker_floor import LookName, Stand
 from tagmetry.lab.rows import Localization
 
 
@@ -51,15 +51,9 @@ def cases(quick: bool) -> tuple[Case, ...]:
 
 def measure(case: Case, seed: int) -> Sequence[Localization]:
     """Return how far every method is off in every picture."""
-    rng = np.random.default_rng(seed)
     pitch_deg, roll_deg = (case.lean_deg, 0.0) if case.axis == "pitch" else (0.0, case.lean_deg)
     stand = Stand("one", case.distance_m, 0.0, pitch_deg, roll_deg, case.look)
-    rows: list[Localization] = []
-    for repeat in range(case.repeats):
-        T_world_camera = camera_place(stand, rng)
-        pixels = picture(stand, T_world_camera, rng)
-        rows += localized(Shown(stand, repeat), T_world_camera, pixels)
-    return rows
+    return list(localized_repeatedly(stand, case.repeats, seed))
 
 
 EXPERIMENT = Experiment(

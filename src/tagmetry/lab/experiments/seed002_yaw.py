@@ -13,8 +13,8 @@ import numpy as np
 
 from tagmetry.lab.beside.seed002_yaw import conclude
 from tagmetry.lab.experiment import Experiment
-from tagmetry.lab.rigs.localized import Shown, localized, method_names
-from tagmetry.lab.rigs.marker_floor import LayoutName, LookName, Stand, camera_place, picture
+from tagmetry.lab.rigs.localized import localized_repeatedly, method_names
+from tagmetry.lab.rigs.marker_floor import LayoutName, LookName, Stand
 from tagmetry.lab.rows import Localization
 
 LAYOUTS: tuple[LayoutName, ...] = get_args(LayoutName)
@@ -56,14 +56,8 @@ def cases(quick: bool) -> tuple[Case, ...]:
 
 def measure(case: Case, seed: int) -> Sequence[Localization]:
     """Return how far every method is off in every picture."""
-    rng = np.random.default_rng(seed)
     stand = Stand(case.layout, case.distance_m, case.yaw_deg, look=case.look)
-    rows: list[Localization] = []
-    for repeat in range(case.repeats):
-        T_world_camera = camera_place(stand, rng)
-        pixels = picture(stand, T_world_camera, rng)
-        rows += localized(Shown(stand, repeat), T_world_camera, pixels)
-    return rows
+    return list(localized_repeatedly(stand, case.repeats, seed))
 
 
 EXPERIMENT = Experiment(

@@ -15,7 +15,15 @@ from tagmetry.geometry import (
     wrap_angle_rad,
 )
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.lab.rigs.marker_floor import CAMERA, FAMILY, Stand, angles_rad, marker_map
+from tagmetry.lab.rigs.marker_floor import (
+    CAMERA,
+    FAMILY,
+    Stand,
+    angles_rad,
+    camera_place,
+    marker_map,
+    picture,
+)
 from tagmetry.lab.rigs.paper_localization import fused_place, seen_corners
 from tagmetry.lab.rows import Localization
 from tagmetry.localize import METHODS, Localizer, MarkerMap
@@ -89,6 +97,15 @@ class Shown:
     repeat: int
     zone: int = -1
     assumed: str = "right"
+
+
+def localized_repeatedly(stand: Stand, repeats: int, seed: int) -> Iterator[Localization]:
+    """Give how far every method is off in pictures of a stand, all that it takes being right."""
+    rng = np.random.default_rng(seed)
+    for repeat in range(repeats):
+        T_world_camera = camera_place(stand, rng)
+        pixels = picture(stand, T_world_camera, rng)
+        yield from localized(Shown(stand, repeat), T_world_camera, pixels)
 
 
 def localized(
