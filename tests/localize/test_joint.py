@@ -1,6 +1,5 @@
-"""The joint solution: right covariance, deaf to wrong markers, and no flip that can be told."""
+"""The joint solution: right covariance, deaf to wrong markers, heedful of what is known."""
 
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -21,7 +20,7 @@ from scipy.stats import chi2
 from tagmetry.geometry import RigidTransform, UncertainTransform, pose_difference
 from tagmetry.geometry import mahalanobis_squared as distance2
 from tagmetry.geometry.transforms import Rotation
-from tagmetry.localize import Gravity, Height, Knowledge, Localizer, MarkerMap
+from tagmetry.localize import Height, Knowledge, Localizer, MarkerMap
 from tagmetry.localize.joint.proposals import proposals
 from tagmetry.localize.joint.scene import scene_of
 from tagmetry.localize.seen import known_markers
@@ -30,6 +29,7 @@ from tagmetry.pose import estimate_body_pose
 from tagmetry.pose.ippe import ippe
 
 HERE = camera_at(-2.2, 0.2, 1.1, (5, 3, 4))
+
 SURVEY = np.diag([2e-3, 2e-3, 2e-3, 4e-3, 4e-3, 4e-3]) ** 2
 
 
@@ -52,11 +52,6 @@ def coverage(poses, errors):
 
 def rms_m(errors):
     return float(np.sqrt((errors[:, :3] ** 2).sum(axis=1).mean()))
-
-
-def turned_away(errors):
-    """Say which errors are flips: noise alone turns a far marker by some degrees."""
-    return np.linalg.norm(errors[:, 3:], axis=1) > np.deg2rad(10)
 
 
 def moved(marker_map, keys, shift_m=(0.0, 0.12, 0.05)):
@@ -230,88 +225,6 @@ def test_noise_beyond_what_is_stated_widens_the_covariance():
     np.testing.assert_allclose(ratio, 1, rtol=0.3)
 
 
-def far_pair(lean):
-    return MarkerMap(tuple(wall_marker(n, 0.6 * n - 0.3, 1.2, lean=one) for n, one in lean))
-
-
-PAIRS = {  # and from how far aside they are seen, degrees
-    "turned against each other": (far_pair([(0, (12, 0, 0)), (1, (-25, 10, 0))]), (-6, 6)),
-    "in one plane, 60 cm apart": (wall(2, 1, 0.6), (25, 45)),
-}
-
-
-def around(rng, aside_deg):
-    """Return a camera 2 to 4 m off that looks about at the middle of the markers."""
-    distance_m, azimuth_deg = rng.uniform(2, 4), rng.uniform(*aside_deg)
-    x_m = -distance_m * np.cos(np.deg2rad(azimuth_deg))
-    y_m = distance_m * np.sin(np.deg2rad(azimuth_deg))
-    yaw, pitch, roll = rng.uniform(-4, 4, 3)
-    return camera_at(x_m, y_m, 1.2, (yaw - azimuth_deg, pitch, roll))
-
-
-def check_no_flips(marker_map, aside_deg, count, seed=0, **knowledge):
-    """Every marker alone is ambiguous, and the camera's pose is not: none of many is wrong."""
-    rng = np.random.default_rng(seed)
-    localizer, wrong = Localizer(marker_map, VGA), 0
-    for _ in range(count):
-        T = around(rng, aside_deg)
-        pose = localizer.locate(seen_by(VGA, T, marker_map, 0.3, rng), knowledge_of(T, **knowledge))
-        apart = pose_difference(pose.T_world_camera, T)
-        wrong += bool(distance2(apart, pose.covariance) > 60) and turned_away(apart[None])[0]
-    assert wrong == 0
-
-
-def knowledge_of(T_world_camera, *, tilt_rad=None):
-    if tilt_rad is None:
-        return Knowledge()
-    up = T_world_camera.inv().rotation.apply([0.0, 0.0, 1.0])
-    return Knowledge(ups=(Gravity(up, tilt_rad),))
-
-
-@pytest.mark.parametrize("name", PAIRS)
-def test_no_flip_survives_a_second_marker(name):
-    check_no_flips(*PAIRS[name], 150)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", PAIRS)
-def test_no_flip_in_ten_thousand_survives_a_second_marker(name):
-    check_no_flips(*PAIRS[name], 10_000)
-
-
-def test_no_flip_survives_gravity():
-    leaning = MarkerMap((wall_marker(0, 0.0, 1.2, lean=(0, 25, 0)),))
-    check_no_flips(leaning, (-6, 6), 150, tilt_rad=np.deg2rad(1))
-
-
-@pytest.mark.slow
-def test_no_flip_in_ten_thousand_survives_gravity():
-    leaning = MarkerMap((wall_marker(0, 0.0, 1.2, lean=(0, 25, 0)),))
-    check_no_flips(leaning, (-6, 6), 10_000, tilt_rad=np.deg2rad(1))
-
-
-def test_what_nothing_can_tell_has_the_right_probability():
-    rng = np.random.default_rng(9)
-    stated, wrong = [], []
-    for _ in range(500):
-        lean = rng.uniform(-25, 25, 2)
-        alone = MarkerMap((wall_marker(0, 0.0, 1.2, lean=(*lean, 0)),))
-        T = camera_at(rng.uniform(-3.5, -2), 0.0, 1.2)
-        pose = Localizer(alone, VGA).locate(seen_by(VGA, T, alone, 0.3, rng))
-        if len(pose.hypotheses) == 2:
-            errors = [
-                np.linalg.norm(pose_difference(one.T_world_camera, T)) for one in pose.hypotheses
-            ]
-            stated.append(pose.ambiguity)
-            wrong.append(errors[0] > errors[1])
-    stated, wrong = np.array(stated), np.array(wrong)
-    for low, high in [(0, 0.05), (0.05, 0.2), (0.2, 0.35), (0.35, 0.5)]:
-        chosen = (stated >= low) & (stated < high)
-        deviation = np.sqrt((stated * (1 - stated))[chosen].sum() + 1) / chosen.sum()
-        assert chosen.sum() > 20
-        assert abs(wrong[chosen].mean() - stated[chosen].mean()) < 4 * deviation
-
-
 def test_a_known_height_is_heeded_as_its_deviation_says():
     detections = seen_by(VGA, HERE, room(), 0.3, np.random.default_rng(3))
     localizer = Localizer(room(), VGA)
@@ -325,23 +238,3 @@ def test_a_known_height_is_heeded_as_its_deviation_says():
     np.testing.assert_allclose(
         vague.T_world_camera.translation, free.T_world_camera.translation, atol=1e-5
     )
-
-
-def test_it_is_quicker_than_the_body_s_pose_by_far():
-    """Processor time of the thread, the least of several runs: others share the machine."""
-    body = MarkerBody(
-        "room",
-        tuple(MountedMarker(m.family, m.id, m.size_m, m.T_world_marker) for m in room().markers),
-    )
-    detections = seen_by(DISTORTED, HERE, room(), 0.1, np.random.default_rng(0))
-    localizer = Localizer(room(), DISTORTED)
-    times_s = {"joint": [], "body": []}
-    for _ in range(15):
-        for name, run in (
-            ("joint", lambda: localizer.locate(detections)),
-            ("body", lambda: estimate_body_pose(detections, body, DISTORTED)),
-        ):
-            start_s = time.thread_time()
-            run()
-            times_s[name].append(time.thread_time() - start_s)
-    assert min(times_s["joint"]) < 0.25 * min(times_s["body"])
