@@ -50,7 +50,8 @@ def test_says_what_it_needs(wheel: ZipFile) -> None:
     metadata = read_metadata(wheel)
     assert metadata["Requires-Python"] == [">=3.11"]
     assert metadata["License-Expression"] == ["Apache-2.0 AND BSD-2-Clause"]
-    extras = {"all", "bench", "cluster", "parquet", "print", "report", "video"}
+    extras = {"all", "arena", "bench", "cluster", "live", "parquet", "print", "report"}
+    extras |= {"robots", "video"}
     assert set(metadata["Provides-Extra"]) == extras
 
 
@@ -67,5 +68,5 @@ def test_every_requirement_of_the_wheel_is_pinned(wheel: ZipFile) -> None:
 def test_pinned_requirements_name_no_address(name: str) -> None:
     text = (ROOT / "requirements" / f"{name}.txt").read_text()
     assert "--hash=sha256:" in text
-    for forbidden in ("http", "index-url", "find-links", "file:", "/"):
+    for forbidden in ("http:", "https:", "index-url", "find-links", "file:", "/"):
         assert forbidden not in text
