@@ -9,6 +9,10 @@ class InputError(ValueError):
     """An input that cannot be used; the text says what was expected, found, and what to do."""
 
 
+class ControlError(InputError):
+    """A camera's control does not do what it was told; the text names it and says what happened."""
+
+
 class MissingExtraError(InputError):
     """An optional part of tagmetry is missing; the text gives the command that installs it."""
 

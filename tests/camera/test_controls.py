@@ -3,9 +3,17 @@
 import numpy as np
 import pytest
 
-from tagmetry.camera import Control, ControlRefusedError, Controls, restored
+from tagmetry.camera import (
+    Control,
+    ControlMisreadError,
+    ControlRefusedError,
+    Controls,
+    ControlStuckError,
+    VerifiedControls,
+    restored,
+)
 from tagmetry.camera.controls import RULED_BY, control_named
-from tagmetry.errors import InputError
+from tagmetry.errors import ControlError, InputError
 
 FOCUS = Control("focus", 0.0, 150.0, 5.0, 0.0)
 EXPOSURE = Control("exposure", 1e-4, 333e-4, 1e-4, 156e-4, "s")
@@ -120,3 +128,34 @@ def _zoomed_and_stuck(controls: FakeControls) -> None:
         controls.write("zoom", 300.0)
         controls.write("focus", 30.0)
         controls.refused.add("zoom")
+
+
+def test_verified_controls_return_what_is_read_back() -> None:
+    controls = VerifiedControls(FakeControls(zoom=100.0))
+    assert isinstance(controls, Controls)
+    assert controls.write("zoom", 300.0) == controls.read("zoom") == 300.0
+    assert set(controls.available) == {"zoom"}
+
+
+@pytest.mark.parametrize(("read_back", "text"), [(100.0, "100"), (250.0, "250"), (np.nan, "nan")])
+def test_a_control_that_reads_back_another_value_is_named(read_back: float, text: str) -> None:
+    class Misread(FakeControls):
+        def read(self, name):  # noqa: ARG002 (whatever it is)
+            return read_back
+
+    with pytest.raises(ControlMisreadError, match=f"zoom: 300 was sent, .* reads back {text};"):
+        VerifiedControls(Misread(zoom=100.0)).write("zoom", 300.0)
+
+
+def test_half_a_step_of_rounding_is_no_misreading() -> None:
+    class Rounding(FakeControls):
+        def read(self, name):
+            return self.values[name] + 0.499
+
+    assert VerifiedControls(Rounding(zoom=100.0)).write("zoom", 300.0) == 300.499
+
+
+def test_every_fault_of_a_control_is_a_control_error() -> None:
+    for kind in (ControlRefusedError, ControlMisreadError, ControlStuckError):
+        assert issubclass(kind, ControlError)
+    assert issubclass(ControlError, InputError)

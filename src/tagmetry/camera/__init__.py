@@ -1,7 +1,14 @@
 """The camera model, its images, and what a source of images must be."""
 
 from tagmetry.camera.bank import Approach, BankNode, CameraBank, Gap, LeftOut, Repeat
-from tagmetry.camera.controls import Control, ControlledSource, ControlRefusedError, Controls
+from tagmetry.camera.controls import (
+    Control,
+    ControlledSource,
+    ControlMisreadError,
+    ControlRefusedError,
+    Controls,
+    ControlStuckError,
+)
 from tagmetry.camera.image import Image
 from tagmetry.camera.lens import BrownLens, FisheyeLens, Lens
 from tagmetry.camera.model import Camera
@@ -9,6 +16,7 @@ from tagmetry.camera.monotonic import DistortionReach, distortion_reach
 from tagmetry.camera.resize import cropped, rotated, scaled, zoomed
 from tagmetry.camera.restored import restored
 from tagmetry.camera.source import Source
+from tagmetry.camera.verified import VerifiedControls
 
 __all__ = [
     "Approach",
@@ -17,7 +25,9 @@ __all__ = [
     "Camera",
     "CameraBank",
     "Control",
+    "ControlMisreadError",
     "ControlRefusedError",
+    "ControlStuckError",
     "ControlledSource",
     "Controls",
     "DistortionReach",
@@ -28,6 +38,7 @@ __all__ = [
     "Lens",
     "Repeat",
     "Source",
+    "VerifiedControls",
     "cropped",
     "distortion_reach",
     "restored",

@@ -17,7 +17,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from tagmetry.camera.source import Source
-from tagmetry.errors import InputError
+from tagmetry.errors import ControlError, InputError
 
 RULED_BY: Mapping[str, str] = {
     "focus": "auto_focus",
@@ -29,8 +29,16 @@ RULED_BY: Mapping[str, str] = {
 _NEARLY = 1e-9  # of the step, that a limit may be missed by
 
 
-class ControlRefusedError(InputError):
+class ControlRefusedError(ControlError):
     """A camera did not take a value that is within the control's range."""
+
+
+class ControlMisreadError(ControlError):
+    """A camera reads back another value than it was sent."""
+
+
+class ControlStuckError(ControlError):
+    """No image showed a change in the time that it may take: the control sticks or is too late."""
 
 
 @dataclass(frozen=True)

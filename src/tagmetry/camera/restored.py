@@ -4,6 +4,7 @@ from collections.abc import Generator, Iterable
 from contextlib import contextmanager
 
 from tagmetry.camera.controls import RULED_BY, ControlRefusedError, Controls
+from tagmetry.errors import InputError
 
 
 @contextmanager
@@ -34,6 +35,6 @@ def _refusals(controls: Controls, values: Iterable[tuple[str, float]]) -> list[s
     for name, value in values:
         try:
             controls.write(name, value)
-        except ControlRefusedError as refusal:
+        except InputError as refusal:
             refusals.append(str(refusal))
     return refusals
