@@ -19,9 +19,11 @@ from tagmetry.twin.camera.development import Taking, image_pixels
 from tagmetry.twin.camera.device import Device
 from tagmetry.twin.camera.dials import TwinControls
 from tagmetry.twin.camera.faults import Faults
-from tagmetry.twin.camera.intrinsics import image_camera
+from tagmetry.twin.camera.intrinsics import image_camera, sensor_shot
+from tagmetry.twin.camera.quick import quick_pixels
 from tagmetry.twin.camera.setting import Setting
 from tagmetry.twin.scenes import Path, Scene, Still
+from tagmetry.twin.truth import ImageTruth, image_truth
 
 _AT_ORIGIN = Still(RigidTransform.identity())
 _SAME_S = 1e-9
@@ -39,6 +41,7 @@ class TwinCamera(ClosingSource):
         seed: int = 0,
         faults: Faults | None = None,
         tells_camera: bool = False,
+        quick: bool = False,
     ) -> None:
         """Switch on, at time 0.
 
@@ -49,10 +52,13 @@ class TwinCamera(ClosingSource):
             seed: Of the noise; an image's noise depends on it and the image's number alone.
             faults: What is wrong with the controls.
             tells_camera: Give every image its exact intrinsics, which no real camera knows.
+            quick: Take only what lies around things exactly; elsewhere neighbours' noise has
+                nothing in common. For scenes of which things fill little.
         """
         self.name = f"twin {device.name}"
         self._scene, self._device, self._path = scene, device, path
         self._seed, self._tells_camera = seed, tells_camera
+        self._develop = quick_pixels if quick else image_pixels
         self._now_s, self._sequence = 0.0, -1
         self._controls = TwinControls(device, faults or Faults(), lambda: self._now_s)
         focus = device.available.get("focus")
@@ -113,6 +119,12 @@ class TwinCamera(ClosingSource):
         """Return the exact intrinsics of the newest image given: with its zoom and breathing."""
         return image_camera(self._device, self.setting())
 
+    def truth(self) -> ImageTruth:
+        """Return everything that is exactly so in the newest image given: poses, corners, blur."""
+        setting = self.setting()
+        middle_s = self._middle_s(max(self._sequence, 0), setting)
+        return image_truth(self._scene, sensor_shot(self._device, setting, self._path, middle_s))
+
     def _newest(self) -> int:
         """Return the number of the newest image that has arrived, at least the next one."""
         newest = int(np.floor((self._now_s + _SAME_S) / self._device.period_s))
@@ -123,15 +135,18 @@ class TwinCamera(ClosingSource):
     def _begin_s(self, sequence: int) -> float:
         return sequence * self._device.period_s
 
+    def _middle_s(self, sequence: int, setting: Setting) -> float:
+        return self._begin_s(sequence) + setting.exposure_s / 2
+
     def _arrival_s(self, sequence: int) -> float:
         begin_s = self._begin_s(sequence)
         return begin_s + self._controls.setting_at(begin_s).exposure_s + self._device.latency_s
 
     def _image(self, setting: Setting) -> Image:
-        middle_s = self._begin_s(self._sequence) + setting.exposure_s / 2
+        middle_s = self._middle_s(self._sequence, setting)
         rng = np.random.default_rng((self._seed, self._sequence))
         taking = Taking(self._device, setting, self._scene, self._path, middle_s)
-        pixels = image_pixels(taking, rng)
+        pixels = self._develop(taking, rng)
         image = Image(pixels, middle_s, "capture", self._sequence, self.name)
         return replace(image, camera=self.true_camera()) if self._tells_camera else image
 

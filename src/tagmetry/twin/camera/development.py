@@ -12,11 +12,13 @@ import numpy as np
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import AnyPixels, FloatImage
 from tagmetry.twin.camera.device import Device
+from tagmetry.twin.camera.part import Part, part_for, whole
 from tagmetry.twin.camera.readout import Readout, coarser, finer, readout
 from tagmetry.twin.camera.setting import Setting
 from tagmetry.twin.optics.sensor import developed
-from tagmetry.twin.optics.spread import gaussian_kernel
+from tagmetry.twin.optics.spread import gaussian_kernel, gaussian_reach
 from tagmetry.twin.rendering import Optics, Shot, Shutter, exposed
+from tagmetry.twin.rendering.box import Box
 from tagmetry.twin.scenes import Path, Scene
 
 _DISC_PER_PIXEL = 8.0  # least radius of the discs by a pixel's side, where pixels are made larger
@@ -63,34 +65,43 @@ class Taking:
         ]
 
 
-def image_pixels(taking: Taking, rng: np.random.Generator) -> AnyPixels:
-    """Return a grey image, shape (height, width), uint8 or, above 8 bits, uint16."""
+def image_pixels(taking: Taking, rng: np.random.Generator, window: Box | None = None) -> AnyPixels:
+    """Return a grey image or a window of it, shape (height, width), uint8 or, above 8 bits, uint16.
+
+    Args:
+        taking: What is taken, and how.
+        rng: Where the noise comes from.
+        window: Which pixels of the image; None for all.
+    """
     device, setting = taking.device, taking.setting
     read = readout(device, setting.zoom_percent / 100, setting.focus)
-    sensor = read.sensor(setting.gain)
-    light = _softened(_light(taking, read), device.blur_px / read.binned) * read.vignette
+    softened_px = device.blur_px / read.binned
+    part = whole(read) if window is None else part_for(read, window, gaussian_reach(softened_px))
+    light = _softened(_light(taking, part), softened_px) * part.read.vignette
     light *= np.float32(device.sensitivity_per_s * setting.exposure_s)
+    sensor = read.sensor(setting.gain)
     signal = developed(light, sensor, rng).astype(np.float32) / np.float32(sensor.white_grey)
-    return developed(read.shown(signal), device.output, rng)
+    return developed(part.shown(signal), device.output, rng)
 
 
-def _light(taking: Taking, read: Readout) -> FloatImage:
+def _light(taking: Taking, part: Part) -> FloatImage:
     """Return the light on the pixels that are read."""
-    times = _coarseness(taking, read)
-    light = exposed(taking.scene, _shot(taking, read, times))
-    return light if times == 1 else finer(light, read.camera, times)
+    times = _coarseness(taking, part.read)
+    light = exposed(taking.scene, _shot(taking, part, times))
+    return light if times == 1 else finer(light, part.read.camera, times)
 
 
-def _shot(taking: Taking, read: Readout, times: int) -> Shot:
+def _shot(taking: Taking, part: Part, times: int) -> Shot:
     """Return what the renderer needs, with pixels so many times larger than those read."""
+    read = part.read
     camera = read.camera if times == 1 else coarser(read.camera, times)
-    line_s = taking.device.line_s * read.binned * times
+    line_s = taking.device.line_s * read.binned
     return Shot(
         camera,
         taking.path,
-        taking.time_s,
+        taking.time_s + part.rows_later * line_s,
         Optics(lens=read.lens_of(times), focus_m=taking.focus_m),
-        Shutter(taking.setting.exposure_s, line_s),
+        Shutter(taking.setting.exposure_s, line_s * times),
     )
 
 

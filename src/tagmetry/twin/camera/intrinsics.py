@@ -14,6 +14,8 @@ from tagmetry.camera.lens import BrownLens, FisheyeLens, Lens
 from tagmetry.errors import InputError
 from tagmetry.twin.camera.device import Device
 from tagmetry.twin.camera.setting import Setting
+from tagmetry.twin.rendering import DigitalZoom, Optics, Shot, Shutter
+from tagmetry.twin.scenes import Path
 
 
 def image_camera(device: Device, setting: Setting) -> Camera:
@@ -34,6 +36,25 @@ def sensor_camera(device: Device, focus: float) -> Camera:
         lens=_bent_more(device.sensor.lens, device.breathing.distortion_m, focus_m),
         focus=focus,
         name=device.name,
+    )
+
+
+def sensor_shot(device: Device, setting: Setting, path: Path, time_s: float) -> Shot:
+    """Return what the whole sensor sees, and what is given out of it: for the truth of an image.
+
+    Args:
+        device: The camera's hardware.
+        setting: What it is set to.
+        path: Where the camera is, T_world_camera.
+        time_s: Middle of the exposure.
+    """
+    return Shot(
+        sensor_camera(device, setting.focus),
+        path,
+        time_s,
+        Optics(lens=device.lens, focus_m=device.focus_law.distance_m(setting.focus)),
+        Shutter(setting.exposure_s, device.line_s),
+        zoom=DigitalZoom(setting.zoom_percent / 100, *device.size_px, device.interpolation),
     )
 
 

@@ -21,7 +21,7 @@ from tagmetry.twin.optics.vignetting import gain_map
 
 _MARGIN_PX = 4  # more than any interpolation reaches beyond the pixels that are shown
 _VIGNETTE_PX = 16  # the corners darken so slowly that every 16th pixel tells
-_BORDER = 2  # as far as the interpolation of larger pixels reaches
+EDGE = 2  # larger pixels around the image: as far as their interpolation reaches
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,29 +55,47 @@ class Readout:
     def shown(self, signal: FloatImage) -> FloatImage:
         """Return the image's share of what was read, resampled to the image's size."""
         width_px, height_px = self.device.size_px
-        left_px, top_px = self.camera.width_px - width_px, self.camera.height_px - height_px
-        if self._is_as_read and left_px % 2 == top_px % 2 == 0:
+        if self._is_as_read:
+            left_px, top_px = self._spare_px
             return signal[top_px // 2 :, left_px // 2 :][:height_px, :width_px]
-        across, down = self._resampling(0), self._resampling(1)
+        across, down = self.weights(0), self.weights(1)
         return np.asarray((across @ (down @ signal).T).T, np.float32)
+
+    def weights(self, axis: int) -> csr_array:
+        """Return what the image's columns (axis 0) or rows (1) are of those read, sparse."""
+        read_px, shown_px = self.camera.size_px[axis], self.device.size_px[axis]
+        if self._is_as_read:
+            return _taken(shown_px, read_px)
+        zoom = self.zoom * read_px * self.binned / self.device.sensor.size_px[axis]
+        return resampling(read_px, shown_px, zoom, self.device.interpolation)
 
     @property
     def _is_as_read(self) -> bool:
         """Whether a pixel of the image is a pixel that is read."""
         read_px = self.device.sensor.width_px / self.binned
-        return bool(np.isclose(self.zoom * self.device.size_px[0], read_px, rtol=1e-12, atol=0))
+        is_same = np.isclose(self.zoom * self.device.size_px[0], read_px, rtol=1e-12, atol=0)
+        return bool(is_same and self._spare_px[0] % 2 == self._spare_px[1] % 2 == 0)
 
-    def _resampling(self, axis: int) -> csr_array:
-        """Return the weights along x or y; what is read is less than the sensor."""
-        read_px = self.camera.size_px[axis]
-        zoom = self.zoom * read_px * self.binned / self.device.sensor.size_px[axis]
-        return resampling(read_px, self.device.size_px[axis], zoom, self.device.interpolation)
+    @property
+    def _spare_px(self) -> tuple[int, int]:
+        """How many more columns and rows are read than the image has."""
+        (width_px, height_px), read = self.device.size_px, self.camera
+        return read.width_px - width_px, read.height_px - height_px
 
     @cached_property
     def vignette(self) -> FloatImage:
         """How much light each pixel gets, shape (height, width)."""
         rough = coarser(self.camera, _VIGNETTE_PX)
         return finer(gain_map(rough, self.device.vignetting), self.camera, _VIGNETTE_PX)
+
+
+@lru_cache(maxsize=16)
+def _taken(size_px: int, read_px: int) -> csr_array:
+    """Return the weights that take the middle as it is."""
+    columns = np.arange(size_px) + (read_px - size_px) // 2
+    return csr_array(
+        (np.ones(size_px, np.float32), (np.arange(size_px), columns)), shape=(size_px, read_px)
+    )
 
 
 @lru_cache(maxsize=8)
@@ -93,15 +111,15 @@ def readout(device: Device, zoom: float, focus: float) -> Readout:
 
 def coarser(camera: Camera, times: int) -> Camera:
     """Return a camera with larger pixels and whole ones of them around the image."""
-    columns, rows = (-(-size_px // times) + 2 * _BORDER for size_px in camera.size_px)
-    edge_px = times * _BORDER
+    columns, rows = (-(-size_px // times) + 2 * EDGE for size_px in camera.size_px)
+    edge_px = times * EDGE
     wide = cropped(camera, -edge_px, -edge_px, times * columns, times * rows)
     return scaled(wide, columns, rows)
 
 
 def finer(image: FloatImage, camera: Camera, times: int) -> FloatImage:
     """Return an image of the coarser camera with the pixels of the camera itself."""
-    (rows, columns), edge_px = image.shape, times * _BORDER
+    (rows, columns), edge_px = image.shape, times * EDGE
     across = resampling(columns, times * columns, 1.0, "cubic")
     down = resampling(rows, times * rows, 1.0, "cubic")
     fine = np.asarray((across @ (down @ image).T).T, np.float32)

@@ -5,6 +5,7 @@ overhead camera is 2.5 m over the floor, z = 0.
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import MountedMarker
 from tagmetry.twin.camera.camera import TwinCamera
 from tagmetry.twin.camera.models import mono_camera, overhead_camera, webcam
-from tagmetry.twin.scenes import Scene, Still, Thing, looking, marker_thing
+from tagmetry.twin.scenes import Path, Scene, Still, Thing, looking, marker_thing
 
 _FAMILY = "tag36h11"
 _SPACING_M = 0.8
@@ -33,6 +34,43 @@ def ready_camera(name: str, *, tells_camera: bool = False) -> TwinCamera:
     return READY_CAMERAS[name](tells_camera)
 
 
+@dataclass(frozen=True, eq=False)
+class BeforeCamera:
+    """One marker before a camera at the world's origin.
+
+    Attributes:
+        path: Where it is, T_camera_marker; also `Along` a function of time.
+        id: Of its family.
+        size_m: Side of its black square.
+        family: Its family.
+    """
+
+    path: Path
+    id: int = 7
+    size_m: float = 0.01
+    family: str = _FAMILY
+
+
+def facing_camera(
+    depth_m: float, turn_deg: float = 0.0, x_m: float = 0.0, y_m: float = 0.0
+) -> RigidTransform:
+    """Return T_camera_marker of a marker that faces the camera, turned about its upright axis.
+
+    Args:
+        depth_m: Along the camera's axis.
+        turn_deg: The angle phi of the experiments with a 10 mm marker; 0 faces the camera.
+        x_m: To the right.
+        y_m: Down.
+    """
+    facing = Rotation.from_euler("yx", [turn_deg, 180], degrees=True)
+    return RigidTransform.from_components([x_m, y_m, depth_m], facing)
+
+
+def markers_before_camera(*markers: BeforeCamera) -> Scene:
+    """Return a scene of markers, each moving by itself, before a camera at the world's origin."""
+    return Scene(tuple(_alone(one) for one in markers))
+
+
 def marker_before_camera(
     size_m: float, depth_m: float, turn_deg: float = 0.0, marker_id: int = 7
 ) -> Scene:
@@ -44,10 +82,13 @@ def marker_before_camera(
         turn_deg: How far it is turned about its upright axis; 0 faces the camera.
         marker_id: Of the family tag36h11.
     """
-    facing = Rotation.from_euler("yx", [turn_deg, 180], degrees=True)
-    at = Still(RigidTransform.from_components([0.0, 0.0, depth_m], facing))
-    marker = MountedMarker(_FAMILY, marker_id, size_m, RigidTransform.identity())
-    return Scene((marker_thing([marker], at),))
+    at = Still(facing_camera(depth_m, turn_deg))
+    return markers_before_camera(BeforeCamera(at, marker_id, size_m))
+
+
+def _alone(one: BeforeCamera) -> Thing:
+    marker = MountedMarker(one.family, one.id, one.size_m, RigidTransform.identity())
+    return marker_thing([marker], one.path, name=f"marker {one.id}")
 
 
 def _webcam(tells_camera: bool) -> TwinCamera:

@@ -96,7 +96,7 @@ def gaussian_kernel(deviation: float) -> Array:
         deviation: In points of the grid. Samples of a narrow Gaussian have less variance than it
             has; what is missing is moved from the middle to its neighbours.
     """
-    reach = max(1, int(np.ceil(_GAUSSIAN_REACH * deviation)))
+    reach = gaussian_reach(deviation)
     at = np.arange(-reach, reach + 1)
     kernel = np.exp(-((at / max(deviation, _LEAST_DEVIATION)) ** 2) / 2)
     kernel /= kernel.sum()
@@ -104,6 +104,11 @@ def gaussian_kernel(deviation: float) -> Array:
         missing = deviation**2 - kernel @ at**2
         kernel[reach - 1 : reach + 2] += missing * np.array([0.5, -1.0, 0.5])
     return np.asarray(kernel)
+
+
+def gaussian_reach(deviation: float) -> int:
+    """Return how many points to either side the sampled Gaussian has."""
+    return max(1, int(np.ceil(_GAUSSIAN_REACH * deviation)))
 
 
 def check_grid(image: FloatImage, fine: int) -> None:

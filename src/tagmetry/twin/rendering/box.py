@@ -26,6 +26,20 @@ class Box:
             min(self.bottom, other.bottom),
         )
 
+    def __or__(self, other: "Box") -> "Box":
+        """Return the box around two."""
+        return Box(
+            min(self.left, other.left),
+            min(self.top, other.top),
+            max(self.right, other.right),
+            max(self.bottom, other.bottom),
+        )
+
+    @property
+    def area_px(self) -> int:
+        """How many pixels it has."""
+        return max(self.right - self.left, 0) * max(self.bottom - self.top, 0)
+
     @property
     def pixels(self) -> tuple[slice, slice]:
         """Its rows and columns in the image."""

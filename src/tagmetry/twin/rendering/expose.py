@@ -9,6 +9,7 @@ together, which is exact; with one, each is spread by its own depth first (`laye
 
 from collections.abc import Sequence
 from functools import reduce
+from operator import or_
 
 import numpy as np
 
@@ -52,7 +53,7 @@ def _together(
     """Fill a tile: all sheets over each other, spread together."""
     reach_px = gaussian_reach_px(shot.optics)
     seen = [one for moment in during for one in moment.seen if one.box & tile.grown(reach_px)]
-    if not seen or not (region := tile & reduce(_around, (s.box for s in seen)).grown(reach_px)):
+    if not seen or not (region := tile & reduce(or_, (s.box for s in seen)).grown(reach_px)):
         return
     wide = region.grown(reach_px)
     some = [one for moment in during[:: len(during) // _LOOKED_AT + 1] for one in moment.seen]
@@ -74,16 +75,6 @@ def _sheets_on(grid: Grid, moment: Moment, scene: Scene) -> FloatImage:
         if box and canvas.has_room(window):
             canvas.lay_behind(painted(one, box, grid, moment.view, scene.light), window)
     return canvas.before(scene.background)
-
-
-def _around(one: Box, other: Box) -> Box:
-    """Return the box around two."""
-    return Box(
-        min(one.left, other.left),
-        min(one.top, other.top),
-        max(one.right, other.right),
-        max(one.bottom, other.bottom),
-    )
 
 
 def _through_the_lens(light: FloatImage, shot: Shot) -> FloatImage:

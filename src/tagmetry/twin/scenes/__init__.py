@@ -2,7 +2,7 @@
 
 from tagmetry.twin.scenes.held import Held
 from tagmetry.twin.scenes.light import Lamp, Light
-from tagmetry.twin.scenes.path import Path, Steady, Still, Waypoints, looking
+from tagmetry.twin.scenes.path import Along, Path, Steady, Still, Waypoints, looking
 from tagmetry.twin.scenes.scene import Scene
 from tagmetry.twin.scenes.sheet import Dot, Print, Sheet
 from tagmetry.twin.scenes.thing import (
@@ -16,6 +16,7 @@ from tagmetry.twin.scenes.thing import (
 )
 
 __all__ = [
+    "Along",
     "Dot",
     "Held",
     "Lamp",

@@ -3,6 +3,7 @@
 `T_world_thing` maps the thing's coordinates to the world's, whose z is up.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
@@ -128,6 +129,26 @@ class Waypoints:
     def _turns(self) -> RotationSpline | Slerp:
         kind = RotationSpline if self.smooth else Slerp
         return kind(self.times_s, self.Ts_world_thing.rotation)
+
+
+@dataclass(frozen=True, eq=False)
+class Along:
+    """It goes where a function of time says.
+
+    Attributes:
+        T_world_thing_at: From seconds to a pose.
+    """
+
+    T_world_thing_at: Callable[[float], RigidTransform]
+
+    @property
+    def moves(self) -> bool:
+        """Always."""
+        return True
+
+    def at(self, times_s: Array) -> RigidTransform:
+        """Return the poses at n times."""
+        return RigidTransform.concatenate([self.T_world_thing_at(float(t)) for t in times_s])
 
 
 def looking(from_m: Array, to_m: Array, up: Array = _Z_UP) -> RigidTransform:

@@ -47,7 +47,8 @@ class MarkerTruth:
             behind; NaN where the lens shows none.
         visible_fraction: Share of its black square that the picture shows, 0 to 1.
         tilt_deg: Angle between its normal and the way to the camera; above 90 it is turned away.
-        disc_px: Radius of the disc of defocus at its centre; 0 without a lens, NaN behind it.
+        disc_px: Radius of the disc of defocus at its centre, in the picture; 0 without a lens, NaN
+            behind it.
     """
 
     family: str
@@ -185,4 +186,5 @@ def _disc_px(T_camera_marker: RigidTransform, shot: Shot) -> float:
     lens = shot.optics.lens
     if lens is None:
         return 0.0
-    return float(lens.blur_radius_px(T_camera_marker.translation[2], shot.optics.focus_m))
+    sensor_px = lens.blur_radius_px(T_camera_marker.translation[2], shot.optics.focus_m)
+    return float(sensor_px) * shot.picture_camera.focal_px[0] / shot.camera.focal_px[0]
