@@ -70,9 +70,9 @@ def grips(share):
     return (SlipperyPatch(0.0, 0.0, WHOLE_FLOOR_M, share),)
 
 
-@pytest.mark.parametrize("friction", [0.05, 0.1])
+@pytest.mark.parametrize("friction", [0.02, 0.05])
 def test_on_a_slippery_floor_it_starts_as_friction_lets_it(friction):
-    """By friction times the wheels' share of the weight, which is nearly all."""
+    """By friction times the weight, nearly all of which the wheels carry at such a slow start."""
     design = RobotDesign(caster_friction=1e-4, drive=Drive(0.033, 0.13, 60.0))
     physics = alone(design, patches=grips(friction))
     physics.want(0, Twist(1.5, 0.0))
