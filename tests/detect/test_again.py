@@ -1,6 +1,7 @@
 """A second look where markers have neighbours, or where hardly anything was found."""
 
 import numpy as np
+import pytest
 
 from tagmetry.detect.again import Box, again
 
@@ -31,18 +32,18 @@ def test_the_surroundings_of_neighbours_are_looked_at_again() -> None:
     beside = squares_at((260, 260, 20))
     both = np.concatenate([LONE, beside])
     box = again(LONE, both, both, SHAPE)
-    assert box == Box(50, 50, 351, 351)  # two sides around the marker, but within the image
+    assert box == Box(50, 50, 351, 351, 24.0)  # two sides around the marker, but within the image
     corner = squares_at((40, 1060, 60))
     both = np.concatenate([corner, squares_at((110, 1060, 60))])
     box = again(corner, both, both, SHAPE)
-    assert box == Box(0, 910, 191, 1080)
+    assert box == Box(0, 910, 191, 1080, 24.0)
 
 
 def test_blots_count_where_they_touch_a_markers_corner() -> None:
     beside = np.concatenate([LONE, squares_at((260, 200, 20))])  # ten pixels from its side
     assert again(LONE, LONE, beside, SHAPE) is None
     dots = np.concatenate([LONE, squares_at((239, 239, 18))])
-    assert again(LONE, LONE, dots, SHAPE) == Box(50, 50, 351, 351)
+    assert again(LONE, LONE, dots, SHAPE) == Box(50, 50, 351, 351, 24.0)
 
 
 def test_neighbours_of_few_markers_are_clutter() -> None:
@@ -57,6 +58,27 @@ def test_it_is_looked_everywhere_where_squares_outnumber_markers() -> None:
     both = np.concatenate([LONE, others])
     assert again(LONE, both, both, SHAPE) == Box(0, 0, 1920, 1080)
     assert again(LONE, both[:-1], both, SHAPE) is None
+
+
+@pytest.mark.parametrize(("side_px", "worth"), [(15.0, True), (17.0, False)])
+def test_it_is_looked_everywhere_where_markers_are_about_the_smallest(
+    side_px: float, worth: bool
+) -> None:
+    markers = np.concatenate([LONE, squares_at((900, 900, side_px))])
+    box = again(markers, markers, markers, SHAPE, least_px=8.0)
+    assert box == (Box(0, 0, 1920, 1080) if worth else None)
+    assert again(markers, markers, markers, SHAPE) is None  # a glance is said to see them
+
+
+def test_nothing_is_looked_at_twice() -> None:
+    both = np.concatenate([LONE, squares_at((260, 260, 20))])
+    box = again(LONE, both, both, SHAPE)
+    assert box is not None
+    assert again(LONE, both, both, SHAPE, looked_at=box) is None
+    assert again(LONE + 40, both + 40, both + 40, SHAPE, looked_at=box) is None  # hardly new
+    assert again(LONE + 80, both + 80, both + 80, SHAPE, looked_at=box) is not None
+    nothing = squares_at()
+    assert again(nothing, nothing, nothing, SHAPE, looked_at=Box(0, 0, 1920, 1080)) is None
 
 
 def test_a_box_cuts_its_part_out_of_an_image() -> None:

@@ -3,7 +3,8 @@
 Markers that stand alone are found at a glance. Those of boards may touch each other or what lies
 between them, so where many markers have neighbours it is looked for more around these: pictures in
 borders beside them, or squares that touch their corners. Where there is no marker, or far more
-pictures than markers, something about them may be hard to see: it is looked everywhere.
+pictures than markers, something about them may be hard to see: it is looked everywhere. So it is
+where a marker is about the smallest that are wanted and those are too small for a glance.
 """
 
 from dataclasses import dataclass
@@ -21,16 +22,28 @@ _TOUCHING_FROM = 0.6  # of a marker's side, from centre to centre
 _TOUCHING = 0.15  # of a marker's side, from corner to corner
 _OF_BOARDS = 0.25  # so many of the markers have neighbours where there are boards
 _AROUND = 2.0  # sides around them that are looked at again
+_ENOUGH_AROUND = 1.0  # sides around them: where these were looked at, it is not done again
+_SHORTEST = 0.4  # neighbours' sides, by the shortest of the markers
+_SMALL = 2.0  # times the shortest side: where a marker is so small, others may be smaller
 
 
 @dataclass(frozen=True)
 class Box:
-    """A part of an image, whole pixels, its ends left out."""
+    """A part of an image, whole pixels, its ends left out, and what may be there.
+
+    Attributes:
+        left_px: First column.
+        top_px: First row.
+        right_px: Past the last column.
+        bottom_px: Past the last row.
+        least_px: Sides of markers there are hardly shorter than this.
+    """
 
     left_px: int
     top_px: int
     right_px: int
     bottom_px: int
+    least_px: float = 0.0
 
     @property
     def rows_and_columns(self) -> tuple[slice, slice]:
@@ -47,30 +60,49 @@ class Box:
         )
 
 
+NOWHERE = Box(0, 0, 0, 0)
+
+
 def again(
-    markers_px: Array, pictures_px: Array, squares_px: Array, shape: tuple[int, int]
+    markers_px: Array,
+    pictures_px: Array,
+    squares_px: Array,
+    shape: tuple[int, int],
+    least_px: float = 0.0,
+    looked_at: Box = NOWHERE,
 ) -> Box | None:
-    """Return where to look again; None when it is not worth it.
+    """Return where to look again; None when it is not worth it, or was done.
 
     Args:
         markers_px: Corners of the markers found so far, shape (m, 4, 2).
         pictures_px: Corners of all squares with something printed in a border, shape (k, 4, 2).
         squares_px: Corners of all squares found so far, shape (n, 4, 2).
         shape: Height and width of the image.
+        least_px: Shortest side wanted, 0 where a glance sees the smallest as well as larger ones.
+        looked_at: Where it was looked again already.
     """
-    height, width = shape
+    everywhere = Box(0, 0, shape[1], shape[0])
+    if looked_at.holds(everywhere):
+        return None
     unread = (_apart_by_side(markers_px, pictures_px) > _NEAR[0]).all(axis=0).sum()
-    if unread >= _UNREAD * len(markers_px):
-        return Box(0, 0, width, height)
+    if unread >= _UNREAD * len(markers_px) or (side_lengths(markers_px) < _SMALL * least_px).any():
+        return everywhere
     crowded = _beside(markers_px, pictures_px) | _touched(markers_px, squares_px)
     if crowded.sum() < _OF_BOARDS * len(markers_px) or not crowded.any():
         return None
-    around = _AROUND * side_lengths(markers_px[crowded]).mean(axis=1)[:, None]
-    low = (markers_px[crowded].min(axis=1) - around).min(axis=0)
-    high = (markers_px[crowded].max(axis=1) + around).max(axis=0)
+    if looked_at.holds(_around(markers_px[crowded], _ENOUGH_AROUND, shape)):
+        return None
+    return _around(markers_px[crowded], _AROUND, shape)
+
+
+def _around(squares_px: Array, sides: float, shape: tuple[int, int]) -> Box:
+    """Return what holds squares and so many of their sides around them, within the image."""
+    around_px = sides * side_lengths(squares_px).mean(axis=1)[:, None]
+    low = (squares_px.min(axis=1) - around_px).min(axis=0)
+    high = (squares_px.max(axis=1) + around_px).max(axis=0)
     left, top = np.maximum(low, 0).astype(int).tolist()
-    right, bottom = np.minimum(high + 1, [width, height]).astype(int).tolist()
-    return Box(left, top, right, bottom)
+    right, bottom = np.minimum(high + 1, [shape[1], shape[0]]).astype(int).tolist()
+    return Box(left, top, right, bottom, _SHORTEST * float(side_lengths(squares_px).min()))
 
 
 def _beside(markers_px: Array, pictures_px: Array) -> BoolArray:

@@ -147,6 +147,11 @@ def _first_per_place(squares_px: Sequence[Array]) -> list[int]:
     ]
 
 
+def one_per_place(corners_px: Array) -> Array:
+    """Return squares (n, 4, 2) without those that an earlier one stands in the place of."""
+    return corners_px[first_per_place(corners_px.mean(axis=1), sides_px(corners_px))]
+
+
 def sides_px(corners_px: Array) -> Array:
     """Return the mean side of squares (n, 4, 2), shape (n,), pixels."""
     return np.asarray(side_lengths(corners_px).mean(axis=1))

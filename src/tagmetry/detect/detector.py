@@ -10,12 +10,13 @@ from functools import cached_property
 import numpy as np
 
 from tagmetry.camera import Camera
-from tagmetry.detect.again import Box, again
+from tagmetry.detect.again import NOWHERE, Box, again
 from tagmetry.detect.choose import (
     Candidate,
     Rules,
     best_per_place,
     distinct_rejections,
+    one_per_place,
     with_duplicates_marked,
 )
 from tagmetry.detect.decode import Reading, has_picture, read
@@ -23,14 +24,13 @@ from tagmetry.detect.detection import Detection, Findings, Rejection
 from tagmetry.detect.exact import exact_corners
 from tagmetry.detect.expected import expected_picture
 from tagmetry.detect.grey import grey_8bit
-from tagmetry.detect.segment import Squares, squares, squares_at_a_glance
+from tagmetry.detect.segment import DOUBLE_BELOW_PX, Squares, squares, squares_at_a_glance
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import AnyPixels, GreyPixels
 from tagmetry.markers import Layout, MarkerFamily, family
 
 _BORDER_PX = 2.0
-_SMALL_IMAGE_PX = 700_000  # up to here all looks are taken at once
 _LOOKS_AGAIN = 3
 
 
@@ -101,23 +101,32 @@ class Detector:
 
     def _candidates(self, grey: GreyPixels) -> list[Candidate]:
         """Return what reads as a marker: at a glance, then thoroughly where that is worth it."""
-        bright = self.rules.inverted or self._has_white_borders
         least_px = self.min_side_px or default_min_side_px(grey.size)
-        if grey.size <= _SMALL_IMAGE_PX:
-            return self._read(grey, squares(grey, least_px, bright=bright))[0]
-        found = squares_at_a_glance(grey, least_px, bright=bright)
+        found = squares_at_a_glance(grey, least_px, bright=self._bright)
         candidates, pictures_px = self._read(grey, found)
-        looked_at = Box(0, 0, 0, 0)
+        looked_at, small_px = NOWHERE, least_px if least_px < DOUBLE_BELOW_PX else 0.0
         for _ in range(_LOOKS_AGAIN):
+            candidates = best_per_place(candidates)
             markers_px = np.array([one.corners_px for one in candidates]).reshape(-1, 4, 2)
-            box = again(markers_px, pictures_px, found.corners_px, grey.shape)
-            if box is None or looked_at.holds(box):
+            squares_px, shape = found.corners_px, grey.shape
+            box = again(markers_px, pictures_px, squares_px, shape, small_px, looked_at)
+            if box is None:
                 break
-            part = np.ascontiguousarray(grey[box.rows_and_columns])
-            found = squares(part, least_px, bright=bright).moved(box.left_px, box.top_px)
+            found = self._squares_within(grey, box, least_px)
             more, pictures_px = self._read(grey, found)
             candidates, looked_at = candidates + more, box
         return candidates
+
+    def _squares_within(self, grey: GreyPixels, box: Box, least_px: float) -> Squares:
+        """Return the squares of all looks in a part of an image."""
+        part = np.ascontiguousarray(grey[box.rows_and_columns])
+        found = squares(part, max(least_px, box.least_px), bright=self._bright)
+        return found.moved(box.left_px, box.top_px)
+
+    @property
+    def _bright(self) -> bool:
+        """Whether bright squares on dark are looked for too."""
+        return self.rules.inverted or self._has_white_borders
 
     @cached_property
     def _has_white_borders(self) -> bool:
@@ -147,7 +156,7 @@ class Detector:
                 pictures_px.append(corners_px[None])
             if isinstance(verdict, Candidate):
                 candidates.append(verdict)
-        return candidates, np.concatenate(pictures_px)
+        return candidates, one_per_place(np.concatenate(pictures_px))
 
 
 def _detections(

@@ -19,13 +19,14 @@ from tagmetry.detect.segment.tiles import Tiles
 from tagmetry.geometry.arrays import Array, BoolArray, GreyPixels
 
 _FULL_BELOW_PX = 32.0  # the full image is looked at where sides may be shorter than this
-_DOUBLE_BELOW_PX = 10.0
+DOUBLE_BELOW_PX = 10.0
 _LEAST_IMAGE_PX = 8
 _SLACK = 0.9  # blur rounds corners off, so that squares look smaller at first
 _LEVELS = Look(0.35), Look(0.5), Look(0.7)
 _THIN = Look(0.5, thinned=True)
 _GLANCE = Look(0.5, step_share=0.55), Look(0.5, thinned=True, step_share=0.55)
 _GLANCE_AT_SMALL = Look(0.5, step_share=0.55, most_px=48.0)
+_GLANCE_AT_FAINT = Look(0.7, step_share=0.55, most_px=48.0)
 _Plan = dict[float, tuple[Look, ...]]  # the looks at each scale
 
 
@@ -62,6 +63,8 @@ def squares_at_a_glance(grey: GreyPixels, min_side_px: float, *, bright: bool) -
     plan: _Plan = {0.5: _GLANCE, 1.0: (_GLANCE_AT_SMALL,)}
     if min_side_px >= _FULL_BELOW_PX:
         del plan[1.0]
+    elif min_side_px < DOUBLE_BELOW_PX:
+        plan = {scale: (*looks, _GLANCE_AT_FAINT) for scale, looks in plan.items()}
     return _both(grey, min_side_px, plan, bright)
 
 
@@ -70,7 +73,7 @@ def _plan(min_side_px: float) -> _Plan:
     plan: _Plan = {0.5: (*_LEVELS, _THIN), 1.0: (*_LEVELS, _THIN), 2.0: _LEVELS}
     if min_side_px >= _FULL_BELOW_PX:
         del plan[1.0]
-    if min_side_px >= _DOUBLE_BELOW_PX:
+    if min_side_px >= DOUBLE_BELOW_PX:
         del plan[2.0]
     return plan
 
