@@ -9,7 +9,7 @@ from tagmetry.arena.drive import Twist
 from tagmetry.arena.odometry import dead_reckoned
 from tagmetry.arena.place import Place
 from tagmetry.errors import InputError
-from tagmetry.twin.robots import RobotDesign, RobotsPhysics, SlipperyPatch, Wall
+from tagmetry.twin.robots import Block, RobotDesign, RobotsPhysics, SlipperyPatch
 
 G_MPS2 = 9.81
 DESIGN = RobotDesign()
@@ -146,7 +146,7 @@ def test_encoders_count_whole_steps_of_the_wheels():
 
 
 def test_a_wall_stops_it():
-    physics = alone(walls=(Wall(0.5, 0.0, 0.1, 1.0),))
+    physics = alone(blocks=(Block(0.5, 0.0, 0.1, 1.0),))
     physics.want(0, Twist(0.3, 0.0))
     physics.step(4.0)
     assert physics.places()[0].x_m == pytest.approx(0.45 - 0.08, abs=0.01)

@@ -1,7 +1,7 @@
 """The robots and their floor as MuJoCo's XML.
 
 Each wheel is a ball that touches nothing but the floor, in the point below its axle, so that track
-and radius are exact; bodies bump into bodies and walls. A robot's own friction rules its contacts
+and radius are exact; bodies bump into bodies and blocks. A robot's own friction rules its contacts
 (priority), so that a slippery place is one number of a wheel.
 """
 
@@ -20,7 +20,7 @@ _CASTER_GAP_M = 0.0002  # above the floor while the body is level: the wheels ca
 
 
 @dataclass(frozen=True)
-class Wall:
+class Block:
     """A box on the floor that nothing moves.
 
     Attributes:
@@ -38,10 +38,10 @@ class Wall:
     heading_rad: float = 0.0
 
 
-def arena_xml(robots: Sequence[tuple[RobotDesign, Place]], walls: Sequence[Wall] = ()) -> str:
+def arena_xml(robots: Sequence[tuple[RobotDesign, Place]], blocks: Sequence[Block] = ()) -> str:
     """Return the model of robots that stand at their places."""
     bodies = "".join(_robot(n, design, start) for n, (design, start) in enumerate(robots))
-    boxes = "".join(_wall(wall) for wall in walls)
+    boxes = "".join(_block(block) for block in blocks)
     servos = "".join(_servos(n, design) for n, (design, _) in enumerate(robots))
     return f"""
 <mujoco>
@@ -93,6 +93,6 @@ def _servos(number: int, design: RobotDesign) -> str:
     )
 
 
-def _wall(wall: Wall) -> str:
-    return f"""<geom type="box" pos="{wall.x_m} {wall.y_m} 0.05" euler="0 0 {wall.heading_rad}"
-      size="{wall.length_m / 2} {wall.width_m / 2} 0.05"/>"""
+def _block(block: Block) -> str:
+    return f"""<geom type="box" pos="{block.x_m} {block.y_m} 0.05" euler="0 0 {block.heading_rad}"
+      size="{block.length_m / 2} {block.width_m / 2} 0.05"/>"""

@@ -18,7 +18,7 @@ from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.twin.robots.design import RobotDesign
-from tagmetry.twin.robots.model import TIME_STEP_S, Wall, arena_xml
+from tagmetry.twin.robots.model import TIME_STEP_S, Block, arena_xml
 
 
 @dataclass(frozen=True)
@@ -44,21 +44,21 @@ class RobotsPhysics:
     def __init__(
         self,
         robots: Sequence[tuple[RobotDesign, Place]],
-        walls: Sequence[Wall] = (),
+        blocks: Sequence[Block] = (),
         patches: Sequence[SlipperyPatch] = (),
     ) -> None:
         """Put robots down.
 
         Args:
             robots: What each is made of and where it starts, its centre on the floor.
-            walls: What they can bump into.
+            blocks: What they can bump into.
             patches: Where the floor is slippery; the first that a wheel stands on counts.
         """
         if not robots:
             raise InputError("the simulated arena needs at least one robot, got none")
         mujoco = _mujoco()
         self._advance = mujoco.mj_step
-        self._model: Any = mujoco.MjModel.from_xml_string(arena_xml(robots, walls))
+        self._model: Any = mujoco.MjModel.from_xml_string(arena_xml(robots, blocks))
         self._state: Any = mujoco.MjData(self._model)
         self._patches = tuple(patches)
         self._servo = _Servo([design for design, _ in robots])
