@@ -1,0 +1,233 @@
+"""The host's end of the link: one thread that hears all robots and never lets them wait.
+
+The program sends from its own thread, and takes what was received when it likes. The link's thread
+answers, repeats the emergency stop, and beats for a program that is alive: where that neither sends
+nor pulses any more, the beats end, and every robot stops by itself.
+"""
+
+import secrets
+import selectors
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from types import TracebackType
+from typing import Self
+
+from tagmetry.errors import InputError
+from tagmetry.link.emergency import Emergency
+from tagmetry.link.hearing import Hearing
+from tagmetry.link.layout import Kind
+from tagmetry.link.messages import KINDS, Beat, Command, Message
+from tagmetry.link.peer import Address, Peer, RobotLink
+from tagmetry.link.sockets import LOOPBACK, open_socket
+from tagmetry.link.traffic import Packet, Received
+from tagmetry.link.wire import BEAT_US, BODIES, KEY_BYTES, PORT
+
+OnPacket = Callable[[Packet], None]
+
+_KEPT = 10_000  # messages that nobody takes
+_PATIENCE_US = 200_000  # with a program that neither sends nor pulses
+
+
+def now_us() -> int:
+    """Return the host's clock, `time.monotonic` in microseconds."""
+    return time.monotonic_ns() // 1000
+
+
+class Host:
+    """Talks to robots; to be used in a with-block.
+
+    Every robot has a key, and nobody without it is heard or obeyed.
+    """
+
+    def __init__(
+        self,
+        keys: Mapping[int, bytes],
+        address: str = LOOPBACK,
+        port: int = PORT,
+        *,
+        on_packet: OnPacket | None = None,
+    ) -> None:
+        """Bind the socket; nothing is heard before the with-block.
+
+        Args:
+            keys: Each robot's id and key, as `parse_key` returns it.
+            address: The interface that robots reach; only this computer unless another is named.
+            port: The port; 0 for a free one.
+            on_packet: Told of every packet that is sent or accepted, from the thread that does;
+                it must return at once.
+
+        Raises:
+            InputError: An id or a key cannot be used, or the port is taken.
+        """
+        _check_keys(keys)
+        self._hearing = Hearing({key: _peer(key, keys[key]) for key in keys})
+        self._socket = open_socket(address, port)
+        self._emergency = Emergency()
+        self._on_packet = on_packet
+        self._received: deque[Received] = deque(maxlen=_KEPT)
+        self._lock = threading.RLock()
+        self._is_closing = threading.Event()
+        self._pulse_us = now_us()
+        self._thread = threading.Thread(target=self._run, name="link", daemon=True)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Fall silent: every robot stops by itself."""
+        self._is_closing.set()
+        self._thread.join()
+        self._socket.close()
+
+    @property
+    def address(self) -> Address:
+        """Where robots reach it."""
+        host, port = self._socket.getsockname()
+        return host, port
+
+    @property
+    def is_stopped(self) -> bool:
+        """Whether the emergency stop is latched."""
+        return self._emergency.is_latched
+
+    def send(self, robot_id: int, message: Message) -> bool:
+        """Send a message to a robot at once.
+
+        Returns:
+            Whether it left: not where the robot is not linked, and no command while the emergency
+            stop is latched.
+
+        Raises:
+            InputError: There is no such robot, a robot sends such messages itself, or the message
+                holds what cannot be sent.
+        """
+        peer = self._hearing.peers.get(robot_id)
+        if peer is None:
+            raise InputError(f"there is no robot {robot_id}: only {sorted(self._hearing.peers)}")
+        if BODIES[KINDS[type(message)]].sender != "host":
+            raise InputError(f"{type(message).__name__} is a message of robots, the host has none")
+        self.pulse()
+        with self._lock:
+            if isinstance(message, Command) and self.is_stopped:
+                return False
+            return self._send(peer, message)
+
+    def pulse(self) -> None:
+        """Say that the program is alive, where it has nothing to send."""
+        self._pulse_us = now_us()
+
+    def stop(self) -> None:
+        """Stop all robots now, and keep them stopped: the emergency stop latches."""
+        with self._lock:
+            self._emergency.stop()
+            self._beat()
+
+    def release(self) -> None:
+        """Let robots move again; also those that an earlier host had stopped."""
+        with self._lock:
+            self._emergency.release()
+            self._beat()
+
+    def take(self) -> list[Received]:
+        """Return what was received since the last call, the newest 10,000 messages."""
+        with self._lock:
+            taken = list(self._received)
+            self._received.clear()
+        return taken
+
+    def links(self) -> tuple[RobotLink, ...]:
+        """Return how every robot's link does, by rising id."""
+        with self._lock:
+            now = now_us()
+            return tuple(self._hearing.peers[key].link(now) for key in sorted(self._hearing.peers))
+
+    def _run(self) -> None:
+        """Hear and beat until the end."""
+        next_us = now_us()
+        with selectors.DefaultSelector() as selector:
+            selector.register(self._socket, selectors.EVENT_READ)
+            while not self._is_closing.is_set():
+                if selector.select(max(next_us - now_us(), 0) / 1e6):
+                    self._hear_some()
+                if now_us() >= next_us:
+                    next_us = now_us() + BEAT_US // 2
+                    with self._lock:
+                        self._beat()
+                        self._emergency.count_down()
+
+    def _hear_some(self) -> None:
+        """Hear what has arrived, but leave time for the beats in a flood."""
+        for _ in range(64):
+            try:
+                packet, address = self._socket.recvfrom(2048)
+            except BlockingIOError:
+                return
+            except OSError:  # what some systems say of a robot that went away
+                continue
+            with self._lock:
+                self._hear(packet, address)
+
+    def _hear(self, packet: bytes, address: Address) -> None:
+        heard = self._hearing.hear(packet, address, now_us())
+        if heard is None:
+            return
+        peer, received = heard
+        self._tell(peer, KINDS[type(received.message)], packet, is_incoming=True)
+        self._received.append(received)
+        reply = self._hearing.reply(received)
+        if reply is not None:
+            kind, answer = reply
+            self._write(peer, kind, answer, address)
+
+    def _beat(self) -> None:
+        """Repeat the emergency stop, and beat for robots that were sent nothing else."""
+        now = now_us()
+        urgent = self._emergency.message()
+        is_alive = now - self._pulse_us < _PATIENCE_US
+        for peer in self._hearing.peers.values():
+            if urgent is not None:
+                self._send(peer, urgent)
+            elif is_alive and now - peer.sent_us >= BEAT_US // 2:
+                self._send(peer, Beat())
+
+    def _send(self, peer: Peer, message: Message) -> bool:
+        if not peer.has_session or peer.address is None:
+            return False
+        return self._write(peer, KINDS[type(message)], peer.seal(message, now_us()), peer.address)
+
+    def _write(self, peer: Peer, kind: Kind, packet: bytes, address: Address) -> bool:
+        try:
+            self._socket.sendto(packet, address)
+        except OSError:  # no way to it, or no room in the buffer: as if lost in the air
+            return False
+        self._tell(peer, kind, packet, is_incoming=False)
+        return True
+
+    def _tell(self, peer: Peer, kind: Kind, packet: bytes, *, is_incoming: bool) -> None:
+        if self._on_packet is not None:
+            self._on_packet(Packet(now_us() / 1e6, peer.robot_id, kind, is_incoming, packet))
+
+
+def _peer(robot_id: int, key: bytes) -> Peer:
+    return Peer(robot_id, key, lambda: secrets.randbits(64))
+
+
+def _check_keys(keys: Mapping[int, bytes]) -> None:
+    for robot_id, key in keys.items():
+        if not 0 <= robot_id <= 0xFFFF:
+            raise InputError(f"expected a robot's id, 0 to 65535, got {robot_id}")
+        if len(key) != KEY_BYTES:
+            raise InputError(
+                f"expected {KEY_BYTES} bytes as the key of robot {robot_id}, got {len(key)}; "
+                "make one with tagmetry.link.new_key() and read it with parse_key()"
+            )
+    if len(set(keys.values())) < len(keys):
+        raise InputError("expected a key of its own for every robot, found one twice")
