@@ -11,9 +11,10 @@ led to the solution. The markers' sizes give the scale.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.linalg import block_diag
 
 from tagmetry.arena.on_plane import OverheadView
 from tagmetry.arena.square_fit import fit_squares
@@ -27,6 +28,9 @@ from tagmetry.localize import MapMarker, MarkerMap
 from tagmetry.markers.bodies import MarkerKey, marker_corners_m
 from tagmetry.pose import estimate_poses
 
+_MOST_STEPS = 50
+_FIRST_DAMPING, _LARGEST_DAMPING = 1e-6, 1e6
+_LEAST_GAIN = 1e-9  # of chi2
 _RIGHT = np.pi / 2  # direction of a marker's top whose right is the world's x
 
 
@@ -161,41 +165,83 @@ def _solved(
     first: int,
     second: int | None,
 ) -> LaidFloor:
-    view, places = start
+    """Return the least squares over all corners (Levenberg and Marquardt's)."""
     free = _free(len(keys), first, second)
+    state = _State(*start, corners, free)
+    damping = _FIRST_DAMPING
+    for _ in range(_MOST_STEPS):
+        after = state.stepped(damping)
+        if not after.chi2 < state.chi2:
+            damping *= 10
+            if damping > _LARGEST_DAMPING:
+                break
+            continue
+        is_done = state.chi2 - after.chi2 < _LEAST_GAIN
+        state, damping = after, damping / 10
+        if is_done:
+            break
+    return _laid(state, keys)
 
-    def at(numbers: Array) -> tuple[OverheadView, Array]:
-        T = perturb_pose(view.T_world_camera, numbers[:6])
-        moved = places.ravel().copy()
-        moved[free] += numbers[6:]
-        return OverheadView(view.camera, T, view.covariance), moved.reshape(-1, 3)
 
-    def residuals(numbers: Array) -> Array:
-        return _whitened(*at(numbers), corners)
+@dataclass(frozen=True, eq=False)
+class _State:
+    """A solution on the way: the camera, the places (n, 3), and which of those are free."""
 
-    found = least_squares(residuals, np.zeros(6 + len(free)), x_scale="jac", max_nfev=50)
-    jacobian = np.asarray(found.jac)
-    covariance = np.linalg.inv(jacobian.T @ jacobian)
-    chi2, freedom = float(2 * found.cost), len(found.fun) - len(found.x)
-    spread2 = max(1.0, chi2 / freedom)
-    best, best_places = at(found.x)
-    laid = OverheadView(view.camera, best.T_world_camera, spread2 * covariance[:6, :6])
+    view: OverheadView
+    places: Array
+    corners: _Corners
+    free: IntArray
+
+    @cached_property
+    def equations(self) -> tuple[Array, Array]:
+        """Whitened residuals, shape (8 n,), and their derivatives by what is asked."""
+        poses = [_pose(place) for place in self.places]
+        sized = zip(poses, self.corners.sizes_m.tolist(), strict=True)
+        p_world = np.array([T.apply(marker_corners_m(size_m)) for T, size_m in sized])
+        pixels, by_point = self.view.project(p_world)
+        arm = p_world[..., :2] - self.places[:, None, :2]
+        by_turn = by_point[..., :2] @ np.stack([-arm[..., 1], arm[..., 0]], -1)[..., None]
+        by_place = np.concatenate([by_point[..., :2], by_turn], axis=-1).reshape(-1, 8, 3)
+        by_camera = self.view.by_camera(p_world, by_point).reshape(-1, 8, 6)
+        residuals = self.corners.whiten @ (self.corners.corners_px - pixels).reshape(-1, 8, 1)
+        of_places = block_diag(*(self.corners.whiten @ by_place))[:, self.free]
+        of_camera = (self.corners.whiten @ by_camera).reshape(-1, 6)
+        return residuals.ravel(), np.hstack([of_camera, of_places])
+
+    @property
+    def chi2(self) -> float:
+        """Of all corners."""
+        residuals = self.equations[0]
+        chi2 = float(residuals @ residuals)
+        return chi2 if np.isfinite(chi2) else np.inf
+
+    def stepped(self, damping: float) -> "_State":
+        """Return the solution after a step."""
+        residuals, by_asked = self.equations
+        H = by_asked.T @ by_asked
+        damped = H + damping * np.diag(np.diag(H))
+        step: Array = np.asarray(np.linalg.solve(damped, by_asked.T @ residuals), dtype=np.float64)
+        T = perturb_pose(self.view.T_world_camera, step[:6])
+        places = self.places.ravel().copy()
+        places[self.free] += step[6:]
+        view = OverheadView(self.view.camera, T, self.view.covariance)
+        return _State(view, places.reshape(-1, 3), self.corners, self.free)
+
+
+def _laid(state: _State, keys: Sequence[MarkerKey]) -> LaidFloor:
+    """Return the solution with its covariances; corners that fit badly make them larger."""
+    residuals, by_asked = state.equations
+    freedom = len(residuals) - by_asked.shape[1]
+    covariance = max(1.0, state.chi2 / freedom) * np.linalg.inv(by_asked.T @ by_asked)
     of_places = np.zeros((3 * len(keys),) * 2)
-    of_places[np.ix_(free, free)] = spread2 * covariance[6:, 6:]
+    of_places[np.ix_(state.free, state.free)] = covariance[6:, 6:]
+    sizes_m = state.corners.sizes_m.tolist()
     markers = tuple(
-        _map_marker(key, size_m, place, of_places[3 * n : 3 * n + 3, 3 * n : 3 * n + 3])
-        for n, (key, size_m, place) in enumerate(
-            zip(keys, corners.sizes_m.tolist(), best_places, strict=True)
-        )
+        _map_marker(key, sizes_m[n], state.places[n], of_places[3 * n :, 3 * n :][:3, :3])
+        for n, key in enumerate(keys)
     )
-    return LaidFloor(MarkerMap(markers, "floor"), laid, chi2, freedom)
-
-
-def _whitened(view: OverheadView, places: Array, corners: _Corners) -> Array:
-    markers = zip(corners.sizes_m.tolist(), places, strict=True)
-    p_world = np.array([_pose(place).apply(marker_corners_m(size_m)) for size_m, place in markers])
-    off = (corners.corners_px - view.project(p_world)[0]).reshape(-1, 8, 1)
-    return np.asarray((corners.whiten @ off).ravel())
+    view = OverheadView(state.view.camera, state.view.T_world_camera, covariance[:6, :6])
+    return LaidFloor(MarkerMap(markers, "floor"), view, state.chi2, freedom)
 
 
 def _pose(place: Array) -> RigidTransform:
