@@ -32,8 +32,8 @@ JOINT = 8 + COUNT - BOWS  # coordinates of corners, and bows
 _FIRST_BLUR_PX = 0.9
 _FIRST_NOISE = 20.0
 _LEAST_PIXELS = 60
-_COARSE_PIXELS, _FINE_PIXELS = 250, 1600
-_COARSE_BESIDE_PX, _BESIDE_PX = 1.5, 0.9  # farther pixels say little of an edge
+_COARSE_PIXELS, FINE_PIXELS = 250, 1600
+_COARSE_BESIDE_PX, BESIDE_PX = 1.5, 0.9  # farther pixels say little of an edge
 _COARSE_SPARE_PX, _SPARE_PX = 1.0, 0.2  # that a first guess may be wrong by
 # A round that moves the picture less was the last: of place and levels, of all, of all pixels.
 _ROUGHLY_PX, _NEARLY_PX, SETTLED_PX = 0.15, 0.03, 0.12
@@ -127,7 +127,7 @@ def _fit_finely(
     view: View, ink: Array, fit: Array, noise: float, numbers: int
 ) -> tuple[float, float, Factor]:
     """Improve a fit by all of the pixels; return as above, and the covariance's factor."""
-    count = gather(view, ink, fit, _BESIDE_PX, _FINE_PIXELS)
+    count = gather(view, ink, fit, BESIDE_PX, FINE_PIXELS)
     edges = _with_windows(view, ink, fit, count, _SPARE_PX)
     noise, moved_px, L, scale = fit_pixels(view, fit, count, edges, numbers, SETTLED_PX, noise)
     variance = variance_beside_edges(view, fit, count, edges, noise)

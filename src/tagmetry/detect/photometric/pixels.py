@@ -15,7 +15,7 @@ from tagmetry.geometry.arrays import IntArray
 
 MOST_BLOCKS = 48
 _MOST_PIXELS = (MOST_BLOCKS - 1) * row.BLOCK
-_FLAT = 16  # stands for a flat pixel where others have the bits of edges
+FLAT = 16  # stands for a flat pixel where others have the bits of edges
 _FLAT_SHARE = 0.4  # of flat pixels among the chosen, at most; else one in 16 is taken
 _GOLDEN = 0.618
 
@@ -95,7 +95,7 @@ def _beside_edges(ink: Array, fit: Array, half_px: float, beside_px: float) -> f
 @kernel
 def _flat_among(side_px: float, every: int, wanted: int) -> int:
     """Return among how many flat pixels one is taken, a power of two."""
-    flat = _FLAT
+    flat = FLAT
     while side_px * side_px > _FLAT_SHARE * wanted * every * flat and flat < 1 << 20:
         flat *= 2
     return flat
@@ -108,7 +108,7 @@ def _edges_at_corners(ink: Array) -> IntArray:
     Corner of column i and row j, left of and above cell i, j, stands at i + m j, for ink (m, m).
     """
     cells = len(ink)
-    edges = np.full(cells * cells, _FLAT)
+    edges = np.full(cells * cells, FLAT)
     for j in range(1, cells):
         for i in range(1, cells):
             above = ink[j - 1, i - 1] != ink[j - 1, i]
@@ -147,7 +147,7 @@ def _look(
         meeting = (2.0 if past_v > 0 else 1.0) if near_u else 0.0
         meeting += (8.0 if past_u > 0 else 4.0) if near_v else 0.0
         meeting = 15.0 if near_u & near_v else meeting
-        meeting += _FLAT if (p + turn) & (flat - 1) == 0 else 0.0
+        meeting += FLAT if (p + turn) & (flat - 1) == 0 else 0.0
         room[row.CORNER + p] = corner_u + cells * corner_v
         room[row.MEETING + p] = meeting
 
