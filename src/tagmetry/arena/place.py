@@ -4,6 +4,10 @@ from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin
 from typing import Self
 
+import numpy as np
+
+from tagmetry.geometry import Array
+
 
 @dataclass(frozen=True)
 class Place:
@@ -44,6 +48,11 @@ class Place:
     def distance_m(self, other: "Place") -> float:
         """Return how far it is to the other, centre to centre."""
         return hypot(other.x_m - self.x_m, other.y_m - self.y_m)
+
+    @property
+    def xy_m(self) -> Array:
+        """Its two coordinates, shape (2,)."""
+        return np.array([self.x_m, self.y_m])
 
     @property
     def bearing_rad(self) -> float:

@@ -1,0 +1,27 @@
+"""Controllers: what a robot does with what it knows; the same on the twin and on real robots."""
+
+from tagmetry.arena.controllers.course import Arc, Course, Reference, line_loop_line
+from tagmetry.arena.controllers.leader_follower import Spring, SpringFollower
+from tagmetry.arena.controllers.shield import Shielded, ShieldRules
+from tagmetry.arena.controllers.swarm import Aggregate, Disperse, Formation, Manner
+from tagmetry.arena.controllers.tracking import Gains, PathFollower
+from tagmetry.arena.controllers.view import Controller, View
+
+__all__ = [
+    "Aggregate",
+    "Arc",
+    "Controller",
+    "Course",
+    "Disperse",
+    "Formation",
+    "Gains",
+    "Manner",
+    "PathFollower",
+    "Reference",
+    "ShieldRules",
+    "Shielded",
+    "Spring",
+    "SpringFollower",
+    "View",
+    "line_loop_line",
+]

@@ -1,0 +1,43 @@
+"""What a controller gets and gives: the same on a simulated robot and on a real one.
+
+A controller is anything that turns what one robot knows at a moment into how it shall move:
+
+    def control(view: View) -> Twist
+
+One that has to remember is an object with `__call__`; every robot gets one of its own.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from tagmetry.arena.drive import Twist
+from tagmetry.arena.neighbours import NearObstacle, Neighbour
+from tagmetry.arena.place import Place
+
+
+@dataclass(frozen=True)
+class View:
+    """What one robot knows at one moment.
+
+    Attributes:
+        robot: Its id.
+        time_s: Now, in the arena's clock.
+        twist: How it moves, by its own wheels.
+        neighbours: The robots that its sensor reaches, each as old as its `age_s` says.
+        obstacles: The obstacles that its sensor reaches.
+        place: Where it is in the world, carried on to now; None where the arena does not tell.
+    """
+
+    robot: int
+    time_s: float
+    twist: Twist
+    neighbours: tuple[Neighbour, ...] = ()
+    obstacles: tuple[NearObstacle, ...] = ()
+    place: Place | None = None
+
+    def neighbour(self, robot: int) -> Neighbour | None:
+        """Return one neighbour; None where it is not seen."""
+        return next((one for one in self.neighbours if one.id == robot), None)
+
+
+Controller = Callable[[View], Twist]
