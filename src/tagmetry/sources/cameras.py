@@ -1,19 +1,24 @@
 """Cameras of this computer, by number or device, through OpenCV."""
 
+import threading
+from collections.abc import Generator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.sources.connection import Connection, ConnectionLostError, Opener
+from tagmetry.sources.connection import Connection, ConnectionLostError
 from tagmetry.sources.quiet import quiet_opencv
 
 if TYPE_CHECKING:
     from cv2 import VideoCapture
 
+_PATIENCE_S = 2.0  # for an image under way
+
 
 def camera_opener(
     device: int | str, *, size_px: tuple[int, int] | None = None, grey: bool = False
-) -> Opener:
+) -> "CameraOpener":
     """Return what opens a camera.
 
     Args:
@@ -21,18 +26,59 @@ def camera_opener(
         size_px: (width, height) to ask the camera for: the size that its intrinsics belong to.
         grey: Convert colour to grey.
     """
-    return lambda: _Capture(_open(device, size_px), grey=grey)
+    return CameraOpener(device, size_px, grey=grey)
+
+
+class CameraOpener:
+    """Opens a camera, again after each loss, and gets at the properties of the one that is open."""
+
+    def __init__(
+        self, device: int | str, size_px: tuple[int, int] | None = None, *, grey: bool = False
+    ) -> None:
+        """Open nothing yet; the arguments are those of `camera_opener`."""
+        self.device = device
+        self._size_px, self._grey = size_px, grey
+        self._turn = threading.Lock()  # OpenCV's captures serve one thread at a time
+        self._capture: VideoCapture | None = None
+
+    def __call__(self) -> Connection:
+        """Open the camera."""
+        self._capture = _open(self.device, self._size_px)
+        return _Capture(self._capture, self._turn, grey=self._grey)
+
+    def get(self, prop: int) -> float:
+        """Return a property of the open camera, as `cv2.VideoCapture` has them."""
+        with self._taken() as capture:
+            return float(capture.get(prop))
+
+    def set(self, prop: int, value: float) -> bool:
+        """Set a property of the open camera and say whether it was taken."""
+        with self._taken() as capture:
+            return bool(capture.set(prop, value))
+
+    @contextmanager
+    def _taken(self) -> "Generator[VideoCapture]":
+        """Give the open camera, between two of its images."""
+        if self._capture is None:
+            raise InputError(f"camera {self.device} is not open yet: take an image first")
+        if not self._turn.acquire(timeout=_PATIENCE_S):
+            raise InputError(f"camera {self.device} does not answer")
+        try:
+            yield self._capture
+        finally:
+            self._turn.release()
 
 
 class _Capture(Connection):
-    def __init__(self, capture: "VideoCapture", *, grey: bool) -> None:
-        self._capture, self._grey = capture, grey
+    def __init__(self, capture: "VideoCapture", turn: threading.Lock, *, grey: bool) -> None:
+        self._capture, self._turn, self._grey = capture, turn, grey
 
     def read(self) -> AnyPixels:
         import cv2
 
         try:
-            is_read, pixels = self._capture.read()
+            with self._turn:
+                is_read, pixels = self._capture.read()
         except cv2.error as error:
             raise ConnectionLostError("the camera failed") from error
         if not is_read:

@@ -73,6 +73,11 @@ class LiveSource(ClosingSource):
         return None
 
     @property
+    def opener(self) -> Opener:
+        """What opens the camera or stream."""
+        return self._opener
+
+    @property
     def state(self) -> LiveState:
         """How the source is doing now."""
         return self._state
