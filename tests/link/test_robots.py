@@ -181,9 +181,17 @@ def test_a_hello_that_is_sent_again_changes_nothing(air: Air) -> None:
     assert not air.is_heard(hello)
     air.wait(1_100_000)
     air.link_from(air.robot.due(air.robot_us))
-    assert air.to_host(hello)  # the old one gets an offer,
-    assert air.to_robot(air.send(Command(1.0)))  # and the session goes on
-    assert air.is_heard(air.say(Odometry(1, 0, 0, 0)))
+    assert not air.is_heard(hello)
+
+
+def test_a_hello_from_the_days_of_an_earlier_host_gets_no_more_than_an_offer(air: Air) -> None:
+    hello = air.robot.due(air.robot_us)
+    air.wait(200_000)
+    air.link()
+    later = Air(air.robot, host_us=air.host_us + 1_100_000).link()
+    assert later.to_host(hello)
+    assert later.to_robot(later.send(Command(1.0)))  # and the session goes on
+    assert later.is_heard(later.say(Odometry(1, 0, 0, 0)))
 
 
 def test_an_assign_that_is_sent_again_opens_nothing(air: Air) -> None:

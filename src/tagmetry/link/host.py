@@ -18,7 +18,7 @@ from tagmetry.errors import InputError
 from tagmetry.link.emergency import Emergency
 from tagmetry.link.hearing import Hearing
 from tagmetry.link.layout import Kind
-from tagmetry.link.messages import KINDS, Beat, Command, Message
+from tagmetry.link.messages import KINDS, Beat, Command, Hello, Message, Time
 from tagmetry.link.peer import Address, Peer, RobotLink
 from tagmetry.link.sockets import LOOPBACK, open_socket
 from tagmetry.link.traffic import Packet, Received
@@ -181,7 +181,8 @@ class Host:
             return
         peer, received = heard
         self._tell(peer, KINDS[type(received.message)], packet, is_incoming=True)
-        self._received.append(received)
+        if not isinstance(received.message, (Hello, Time)):  # those are the link's own
+            self._received.append(received)
         reply = self._hearing.reply(received)
         if reply is not None:
             kind, answer = reply

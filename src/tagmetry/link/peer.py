@@ -1,6 +1,6 @@
 """What the host knows of one robot: its key, its session, where it is and how well it hears."""
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
@@ -15,6 +15,7 @@ Address = tuple[str, int]
 
 STOPPED_FLAG = 1
 _MOST_OFFERED = 4
+_MOST_REMEMBERED = 1000
 _GONE_US = 1_500_000
 
 
@@ -49,7 +50,8 @@ class Peer:
     """The host's side of one robot's link; it knows no sockets and no clock.
 
     A HELLO opens nothing: the host offers a session, which begins with the first packet that is
-    sealed with its key. So a HELLO that somebody recorded and sends again harms nobody.
+    sealed with its key. So a HELLO that somebody recorded in the days of an earlier host, and sends
+    again, harms nobody; one that has led to a session already is refused.
     """
 
     def __init__(self, robot_id: int, key: bytes, draw_nonce: Callable[[], int]) -> None:
@@ -59,7 +61,7 @@ class Peer:
         self._key, self._draw_nonce = key, draw_nonce
         self._session: Session | None = None
         self._offered: dict[int, tuple[int, Session]] = {}  # robot's nonce: host's nonce, session
-        self._robot_nonce: int | None = None
+        self._used: deque[int] = deque(maxlen=_MOST_REMEMBERED)  # robot's nonces of sessions
         self._heard_us: int | None = None
         self._told: Time | None = None
         self._refused: Counter[Refusal] = Counter()
@@ -131,7 +133,7 @@ class Peer:
         hello = unpack_body(Kind.HELLO, body_of(packet))
         if not isinstance(hello, Hello):
             return Refusal.CONTENT
-        return Refusal.REPLAYED if hello.robot_nonce == self._robot_nonce else hello
+        return Refusal.REPLAYED if hello.robot_nonce in self._used else hello
 
     def _sessions(self) -> list[Session]:
         current = [] if self._session is None else [self._session]
@@ -148,7 +150,8 @@ class Peer:
     def _begin(self, session: Session) -> None:
         """Take the offered session that the robot has just used; the old one is over."""
         nonces = {offered: nonce for nonce, (_, offered) in self._offered.items()}
-        self._robot_nonce, self._session = nonces[session], session
+        self._used.append(nonces[session])
+        self._session = session
         self._offered, self._told = {}, None
 
     def _offer(self, robot_nonce: int) -> None:
