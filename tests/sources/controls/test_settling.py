@@ -111,6 +111,15 @@ def test_a_control_that_sticks_or_is_too_late_is_named(faults: dict[str, object]
     assert not settling.is_stale(twin.take())  # it goes on
 
 
+def test_where_much_moves_a_change_that_is_not_seen_is_no_fault() -> None:
+    settling = Settling(BOUND)
+    for sequence in range(4):
+        settling.is_stale(still(40 * (sequence % 2), sequence))
+    settling.expect("focus")
+    stale = [settling.is_stale(still(40 * (k % 2), k)) for k in range(4, 16)]
+    assert stale.index(False) == BOUND - 1
+
+
 def test_a_change_that_cannot_be_seen_takes_as_long_as_one_that_could() -> None:
     twin = twin_of()
     settling = warmed(twin)

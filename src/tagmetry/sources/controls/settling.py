@@ -19,6 +19,7 @@ _REMEMBERED = 6  # steps between images that say what is usual
 _JUMP = 3.0  # of the usual step
 _NOTHING = 0.02  # of the greatest step of a change
 _SAME = 1.5  # ratio of two steps that are alike
+_QUIET_GREY2 = 50.0  # noise with a deviation of 4; more is a scene that moves
 _LEAST_GREY2 = 0.5  # the rounding of images without noise
 _UNKNOWN_GREY2 = 10.0  # noise of a poor webcam, before any was seen
 
@@ -87,9 +88,11 @@ class Settling:
 
         Args:
             names: Those whose value changed.
-            is_visible: Whether it must be seen in the images. Not so for a small step of the focus.
+            is_visible: Whether it must be seen in the images. Not so for a small step of the focus;
+                nor for any change while much moves, in which it may drown.
         """
         before = self._pending
+        is_visible &= max(self._steps_grey2, default=0.0) <= _QUIET_GREY2
         if before is not None:
             names, is_visible = (*before.names, *names), before.is_visible or is_visible
         if names:
