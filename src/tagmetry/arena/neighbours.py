@@ -8,12 +8,13 @@ numbers of its own, so that what one is told does not depend on who else there i
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
 from tagmetry.arena.neighbour_sensor import NeighbourSensor
-from tagmetry.arena.obstacles import Obstacle, blocks
-from tagmetry.arena.world_state import RobotState, WorldState
+from tagmetry.arena.obstacles import Obstacle, between
+from tagmetry.arena.world_state import WorldState
 from tagmetry.geometry import Array, wrap_angle_rad
 from tagmetry.geometry.arrays import BoolArray
 
@@ -71,6 +72,24 @@ class Told:
     obstacles: tuple[NearObstacle, ...]
 
 
+@dataclass(frozen=True, eq=False)
+class _Crowd:
+    """The robots of a world as arrays."""
+
+    world: WorldState
+
+    @cached_property
+    def rows(self) -> Mapping[int, int]:
+        """Of the robots, by id."""
+        return {robot.id: row for row, robot in enumerate(self.world.robots)}
+
+    @cached_property
+    def places(self) -> Array:
+        """(x, y, heading), shape (n, 3)."""
+        numbers = [(one.x_m, one.y_m, one.heading_rad) for one in self.world.robots]
+        return np.array(numbers, dtype=np.float64).reshape(-1, 3)
+
+
 @dataclass
 class Neighbourhood:
     """Says what each robot may know.
@@ -90,7 +109,7 @@ class Neighbourhood:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        self._worlds: deque[WorldState] = deque(maxlen=_KEPT)
+        self._crowds: deque[_Crowd] = deque(maxlen=_KEPT)
         self._rngs: dict[int, np.random.Generator] = {}
 
     def tell(self, world: WorldState) -> tuple[Told, ...]:
@@ -99,104 +118,107 @@ class Neighbourhood:
         Args:
             world: The robots now; later than the one before.
         """
-        self._worlds.append(world)
+        self._crowds.append(_Crowd(world))
         return tuple(self._told(robot.id, world.time_s) for robot in world)
 
     def _told(self, robot_id: int, time_s: float) -> Told:
         sensor = self.sensors.get(robot_id, self.sensor)
-        world = self._world_at(time_s - sensor.delay_s)
-        own = world.robot(robot_id) if world is not None else None
-        if world is None or own is None:
+        crowd = self._crowd_at(time_s - sensor.delay_s)
+        if crowd is None or robot_id not in crowd.rows:
             return Told(robot_id, time_s, (), ())
-        late_s = time_s - world.time_s
         rng = self._rngs.setdefault(robot_id, np.random.default_rng([self.seed, robot_id]))
-        neighbours = self._neighbours(own, world, sensor, rng, late_s)
-        return Told(robot_id, time_s, neighbours, self._near(own, sensor, rng))
+        row = crowd.rows[robot_id]
+        neighbours = self._neighbours(crowd, row, sensor, rng, time_s)
+        return Told(robot_id, time_s, neighbours, self._near(crowd.places[row], sensor, rng))
 
-    def _world_at(self, time_s: float) -> WorldState | None:
-        """Return the newest world that is old enough."""
-        return next((one for one in reversed(self._worlds) if one.time_s <= time_s + 1e-9), None)
+    def _crowd_at(self, time_s: float) -> _Crowd | None:
+        """Return the newest that is old enough."""
+        late = reversed(self._crowds)
+        return next((one for one in late if one.world.time_s <= time_s + 1e-9), None)
 
     def _neighbours(
         self,
-        own: RobotState,
-        world: WorldState,
+        crowd: _Crowd,
+        row: int,
         sensor: NeighbourSensor,
         rng: np.random.Generator,
-        late_s: float,
+        time_s: float,
     ) -> tuple[Neighbour, ...]:
-        others = [other for other in world if other.id != own.id]
-        places = np.array([(other.x_m, other.y_m) for other in others]).reshape(-1, 2)
-        ranges, bearings = _polar(own, places)
+        own, robots = crowd.places[row], crowd.world.robots
+        ranges, bearings = _polar(own, crowd.places[:, :2])
         is_sensed = _within(ranges, bearings, sensor)
+        is_sensed[row] = False
         if sensor.line_of_sight:
-            is_sensed &= self._in_sight(own, others, places, ranges <= 2 * sensor.range_m)
-        found = []
-        for k in np.flatnonzero(is_sensed).tolist():
-            turn = others[k].heading_rad - own.heading_rad
-            seen = sensed(ranges[k], bearings[k], turn, sensor, rng)
-            if seen is not None:
-                found.append(Neighbour(others[k].id, *seen, others[k].age_s + late_s))
+            is_sensed &= self._in_sight(crowd, row, ranges <= 2 * sensor.range_m)
+        which = np.flatnonzero(is_sensed)
+        turns = crowd.places[which, 2] - own[2]
+        told = sensed(np.stack([ranges[which], bearings[which], turns], axis=-1), sensor, rng)
+        late_s = time_s - crowd.world.time_s
+        found = [
+            Neighbour(robots[k].id, values[0], values[1], values[2], robots[k].age_s + late_s)
+            for k, values in zip(which.tolist(), told.tolist(), strict=True)
+            if values[0] == values[0]  # NaN dropped out
+        ]
         return tuple(sorted(found, key=lambda one: one.range_m)[: sensor.most])
 
     def _near(
-        self, own: RobotState, sensor: NeighbourSensor, rng: np.random.Generator
+        self, own: Array, sensor: NeighbourSensor, rng: np.random.Generator
     ) -> tuple[NearObstacle, ...]:
-        at = np.array([own.x_m, own.y_m])
-        points = np.array([one.nearest_point(at) for one in self.obstacles]).reshape(-1, 2)
+        if not self.obstacles:
+            return ()
+        points = np.array([one.nearest_point(own[:2]) for one in self.obstacles])
         ranges, bearings = _polar(own, points)
-        found = []
-        for k in np.flatnonzero(_within(ranges, bearings, sensor)).tolist():
-            seen = sensed(ranges[k], bearings[k], 0.0, sensor, rng)
-            if seen is not None:
-                found.append(NearObstacle(self.obstacles[k].name, *seen[:2]))
+        which = np.flatnonzero(_within(ranges, bearings, sensor))
+        asked = np.stack([ranges[which], bearings[which], np.zeros(len(which))], axis=-1)
+        found = [
+            NearObstacle(self.obstacles[k].name, values[0], values[1])
+            for k, values in zip(which.tolist(), sensed(asked, sensor, rng).tolist(), strict=True)
+            if values[0] == values[0]
+        ]
         return tuple(sorted(found, key=lambda one: one.range_m))
 
-    def _in_sight(
-        self, own: RobotState, others: Sequence[RobotState], places: Array, is_near: BoolArray
-    ) -> BoolArray:
+    def _in_sight(self, crowd: _Crowd, row: int, is_near: BoolArray) -> BoolArray:
         """Say which of the robots that are near nothing hides, shape (n,)."""
-        at = np.array([own.x_m, own.y_m])
-        is_hidden = ~is_near
-        for k in np.flatnonzero(is_near).tolist():
-            between = blocks(at, places, places[k], self.radii_m.get(others[k].id, 0.0))
-            between[k] = False
-            is_hidden |= between
+        which = np.flatnonzero(is_near)
+        which = which[which != row]
+        own, places = crowd.places[row, :2], crowd.places[which, :2]
+        radii = [self.radii_m.get(crowd.world.robots[k].id, 0.0) for k in which.tolist()]
+        hides = between(own, places, places, np.array(radii))
+        np.fill_diagonal(hides, val=False)
+        is_hidden = hides.any(axis=1)
         for obstacle in self.obstacles:
-            is_hidden |= obstacle.hides(at, places)
-        return np.asarray(~is_hidden)
+            is_hidden |= obstacle.hides(own, places)
+        in_sight = np.zeros(len(is_near), dtype=bool)
+        in_sight[which] = ~is_hidden
+        return in_sight
 
 
-def sensed(
-    range_m: float,
-    bearing_rad: float,
-    turn_rad: float,
-    sensor: NeighbourSensor,
-    rng: np.random.Generator,
-) -> tuple[float, float, float] | None:
-    """Return range, bearing and relative heading as a sensor gives them; None where it drops out.
+def sensed(exact: Array, sensor: NeighbourSensor, rng: np.random.Generator) -> Array:
+    """Return what a sensor gives, NaN where it drops out.
 
-    The same count of random numbers is drawn every time, so that runs with and without one fault
-    can be compared.
+    The same count of random numbers is drawn whatever the faults are, so that runs with and without
+    one of them can be compared.
+
+    Args:
+        exact: Ranges, bearings and relative headings, shape (n, 3), m and rad.
+        sensor: Its faults.
+        rng: Where the noise comes from.
     """
-    noise, chance = rng.standard_normal(3), rng.random()
-    if chance < sensor.drop_probability:
-        return None
-    range_sd_m = np.hypot(sensor.range_sd_m, sensor.range_sd_share * range_m)
-    noisy_m = max(0.0, float(range_m + range_sd_m * noise[0]))
-    bearing = bearing_rad + sensor.bearing_sd_rad * noise[1]
-    turn = turn_rad + sensor.heading_sd_rad * noise[2]
-    return (
-        _rounded(noisy_m, sensor.range_step_m),
-        float(wrap_angle_rad(_rounded(bearing, sensor.angle_step_rad))),
-        float(wrap_angle_rad(_rounded(turn, sensor.angle_step_rad))),
-    )
+    noise, chance = rng.standard_normal(exact.shape), rng.random(len(exact))
+    deviations = np.empty(exact.shape)
+    deviations[:, 0] = np.hypot(sensor.range_sd_m, sensor.range_sd_share * exact[:, 0])
+    deviations[:, 1:] = sensor.bearing_sd_rad, sensor.heading_sd_rad
+    noisy = exact + deviations * noise
+    noisy[:, 0] = _rounded(np.maximum(noisy[:, 0], 0.0), sensor.range_step_m)
+    noisy[:, 1:] = wrap_angle_rad(_rounded(noisy[:, 1:], sensor.angle_step_rad))
+    noisy[chance < sensor.drop_probability] = np.nan
+    return np.asarray(noisy)
 
 
-def _polar(own: RobotState, places: Array) -> tuple[Array, Array]:
-    """Return ranges and bearings of places (n, 2) in a robot's frame, each of shape (n,)."""
-    x, y = (places - [own.x_m, own.y_m]).T
-    return np.hypot(x, y), wrap_angle_rad(np.arctan2(y, x) - own.heading_rad)
+def _polar(own: Array, places: Array) -> tuple[Array, Array]:
+    """Return ranges and bearings of places (n, 2) from (x, y, heading), each of shape (n,)."""
+    x, y = (places - own[:2]).T
+    return np.hypot(x, y), wrap_angle_rad(np.arctan2(y, x) - own[2])
 
 
 def _within(ranges: Array, bearings: Array, sensor: NeighbourSensor) -> BoolArray:
@@ -205,5 +227,5 @@ def _within(ranges: Array, bearings: Array, sensor: NeighbourSensor) -> BoolArra
     return np.asarray(is_near & is_ahead)
 
 
-def _rounded(value: float, step: float) -> float:
-    return float(np.round(value / step) * step) if step > 0 else float(value)
+def _rounded(values: Array, step: float) -> Array:
+    return np.asarray(np.round(values / step) * step) if step > 0 else values

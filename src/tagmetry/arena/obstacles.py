@@ -40,7 +40,8 @@ class Disc:
 
     def hides(self, start: Array, ends: Array) -> BoolArray:
         """Say of straight lines from a place whether it is between, shape (n,)."""
-        return blocks(start, ends, np.array(self.center_m), self.radius_m)
+        center, radius_m = np.array([self.center_m]), np.array([self.radius_m])
+        return between(start, ends, center, radius_m)[:, 0]
 
 
 @dataclass(frozen=True)
@@ -85,20 +86,20 @@ class Wall:
 Obstacle = Disc | Wall
 
 
-def blocks(start: Array, ends: Array, center: Array, radius_m: float) -> BoolArray:
-    """Say of straight lines from a place whether they cross a disc, shape (n,).
+def between(start: Array, ends: Array, centers: Array, radii_m: Array) -> BoolArray:
+    """Say of straight lines from a place which discs they cross, shape (n, m).
 
     Args:
         start: Shape (2,).
         ends: Shape (n, 2).
-        center: Of the disc, shape (2,).
-        radius_m: Of the disc.
+        centers: Of the discs, shape (m, 2).
+        radii_m: Of the discs, shape (m,).
     """
     ways = ends - start
     lengths2 = np.maximum((ways**2).sum(axis=1), 1e-300)
-    share = np.clip(ways @ (center - start) / lengths2, 0.0, 1.0)
-    nearest = start + share[:, None] * ways
-    return np.asarray(((nearest - center) ** 2).sum(axis=1) < radius_m**2)
+    shares = np.clip(ways @ (centers - start).T / lengths2[:, None], 0.0, 1.0)
+    nearest = start + shares[..., None] * ways[:, None, :]
+    return np.asarray(((nearest - centers) ** 2).sum(axis=-1) < radii_m**2)
 
 
 def _cross(a: Array, b: Array) -> Array:
