@@ -14,6 +14,7 @@ from tagmetry.arena.tracks import Motion, TrackEvent, TrackRules, Tracks
 from tagmetry.arena.world_state import WorldState
 from tagmetry.detect import Detection
 from tagmetry.localize import MarkerMap
+from tagmetry.markers.bodies import MarkerKey
 
 _BUMPS_IN_A_ROW = 3
 
@@ -28,6 +29,7 @@ class ArenaStep:
         events: What happened to tracks.
         bump: Whether the camera is where it was; None where there is nothing to compare with.
         is_bumped: Several images in a row say that the camera was moved; latched.
+        strangers: Markers of the image that are no robot's and not the floor's.
     """
 
     world: WorldState
@@ -35,6 +37,7 @@ class ArenaStep:
     events: tuple[TrackEvent, ...]
     bump: BumpCheck | None
     is_bumped: bool
+    strangers: tuple[MarkerKey, ...]
 
 
 @dataclass
@@ -74,11 +77,18 @@ class Arena:
         seen = sight(detections, self.roster, self.view)
         events = self._tracks.take(seen, time_s)
         bump = self._bump(detections)
-        return ArenaStep(self._tracks.world(), seen, events, bump, self._is_bumped)
+        strangers = self._strangers(detections)
+        return ArenaStep(self._tracks.world(), seen, events, bump, self._is_bumped, strangers)
 
     def world_at(self, time_s: float) -> WorldState:
         """Return the state at a moment after the last image, such as that of sending."""
         return self._tracks.world(time_s)
+
+    def _strangers(self, detections: Sequence[Detection]) -> tuple[MarkerKey, ...]:
+        known = self.roster.row_by_marker
+        of_floor = self.floor.by_key if self.floor is not None else {}
+        keys = (MarkerKey(one.family, one.id) for one in detections)
+        return tuple(key for key in keys if key not in known and key not in of_floor)
 
     def _bump(self, detections: Sequence[Detection]) -> BumpCheck | None:
         if self.floor is None or not self.reference:

@@ -111,7 +111,7 @@ def sight(detections: Sequence[Detection], roster: Roster, view: OverheadView) -
         view: The camera over the floor.
     """
     known = roster.row_by_marker
-    own = [one for one in detections if MarkerKey(one.family, one.id) in known and _is_usable(one)]
+    own = _usable([one for one in detections if MarkerKey(one.family, one.id) in known])
     rows = np.array([known[MarkerKey(one.family, one.id)] for one in own], dtype=np.int64)
     corners_px = np.array([one.corners_px for one in own]).reshape(-1, 4, 2)
     covariances_px2 = np.array([one.corners_cov_px2 for one in own]).reshape(-1, 8, 8)
@@ -147,14 +147,22 @@ def _carried(jacobians: Array, covariances: Array) -> Array:
     return np.asarray(jacobians @ covariances @ np.swapaxes(jacobians, 1, 2))
 
 
-def _is_usable(detection: Detection) -> bool:
-    corners, covariance = detection.corners_px, detection.corners_cov_px2
-    if corners.shape != (4, 2) or covariance.shape != (8, 8):
+def _usable(detections: Sequence[Detection]) -> list[Detection]:
+    """Return those whose numbers are usable; all at once, since they nearly always are."""
+    if _are_usable(detections):
+        return list(detections)
+    return [one for one in detections if _are_usable([one])]
+
+
+def _are_usable(detections: Sequence[Detection]) -> bool:
+    corners = [one.corners_px for one in detections]
+    covariances = [one.corners_cov_px2 for one in detections]
+    if {one.shape for one in corners} - {(4, 2)} or {one.shape for one in covariances} - {(8, 8)}:
         return False
-    if not (np.isfinite(corners).all() and np.isfinite(covariance).all()):
+    if not (np.isfinite(corners).all() and np.isfinite(covariances).all()):
         return False
     try:
-        np.linalg.cholesky(covariance)
+        np.linalg.cholesky(np.reshape(covariances, (-1, 8, 8)))
     except np.linalg.LinAlgError:
         return False
     return True

@@ -1,0 +1,115 @@
+"""The tables of an arena's file, as a person writes them: lengths in metres, angles in degrees."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from tagmetry.files.checked import OwnFileModel
+
+
+class MarkerTable(OwnFileModel):
+    """A marker on a robot: how it is mounted."""
+
+    id: int
+    size_m: float | None = None
+    height_m: float
+    height_sd_m: float = 0.0
+    forward_m: float = 0.0
+    left_m: float = 0.0
+    turn_deg: float = 0.0
+    family: str | None = None
+
+
+class SensorTable(OwnFileModel):
+    """A sensor for neighbours."""
+
+    range_m: float
+    view_deg: float = 360.0
+    view_center_deg: float = 0.0
+    line_of_sight: bool = False
+    range_sd_m: float = 0.0
+    range_sd_share: float = 0.0
+    bearing_sd_deg: float = 0.0
+    heading_sd_deg: float = 0.0
+    drop_probability: float = 0.0
+    delay_s: float = 0.0
+    range_step_m: float = 0.0
+    angle_step_deg: float = 0.0
+    most: int | None = None
+
+
+class RobotTable(OwnFileModel):
+    """A robot."""
+
+    id: int
+    name: str | None = None
+    diameter_m: float | None = None
+    marker: MarkerTable
+    sensor: SensorTable | None = None
+    key: str | None = None
+
+
+class FloorMarkerTable(OwnFileModel):
+    """A marker on the floor; without a place it is found by calibration."""
+
+    id: int
+    size_m: float | None = None
+    family: str | None = None
+    x_m: float | None = None
+    y_m: float | None = None
+    turn_deg: float = 0.0
+
+
+class FloorTable(OwnFileModel):
+    """The markers on the floor, and the frame that they make."""
+
+    markers: list[FloorMarkerTable]
+    origin: int | None = None
+    toward: int | None = None
+    size_m: float | None = None
+
+
+class ObstacleTable(OwnFileModel):
+    """A virtual obstacle: a disc (center_m and radius_m) or a wall (from_m and to_m)."""
+
+    name: str | None = None
+    center_m: list[float] | None = Field(None, min_length=2, max_length=2)
+    radius_m: float | None = None
+    from_m: list[float] | None = Field(None, min_length=2, max_length=2)
+    to_m: list[float] | None = Field(None, min_length=2, max_length=2)
+
+
+class SafetyTable(OwnFileModel):
+    """When robots are stopped."""
+
+    unseen_s: float = 0.5
+    margin_m: float = 0.0
+
+
+class MotionTable(OwnFileModel):
+    """How robots move, for the tracks."""
+
+    acceleration_mps2: float = 0.5
+    turning_radps2: float = 4.0
+    slip_m: float = 0.005
+
+
+class ArenaTable(OwnFileModel):
+    """An arena."""
+
+    tagmetry: Literal["arena"]
+    version: int
+    name: str = "arena"
+    camera: str | None = None
+    world: str | None = None
+    family: str = "tag36h11"
+    marker_size_m: float | None = None
+    diameter_m: float | None = None
+    floor: FloorTable
+    robots: list[RobotTable]
+    sensor: SensorTable | None = None
+    seed: int = 0
+    obstacles: list[ObstacleTable] = Field(default_factory=list)
+    fence_m: list[list[float]] | None = None
+    safety: SafetyTable = Field(default_factory=SafetyTable)
+    motion: MotionTable = Field(default_factory=MotionTable)
