@@ -11,6 +11,7 @@ import typer
 from typer.exceptions import TyperException
 
 from tagmetry import __version__
+from tagmetry.cli.arena import app as arena_app
 from tagmetry.cli.bench import bench
 from tagmetry.cli.calibrate import calibrate
 from tagmetry.cli.camera import app as camera_app
@@ -35,6 +36,7 @@ app = typer.Typer(
 app.command()(detect)
 app.command()(calibrate)
 app.command()(locate)
+app.add_typer(arena_app, name="arena")
 app.add_typer(print_app, name="print")
 app.add_typer(camera_app, name="camera")
 app.add_typer(twin_app, name="twin")

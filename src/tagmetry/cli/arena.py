@@ -1,0 +1,14 @@
+"""`tagmetry arena`: robots under a ceiling camera."""
+
+import typer
+
+from tagmetry.cli.arena_audit import audit
+from tagmetry.cli.arena_calibrate import calibrate
+from tagmetry.cli.arena_mount import mount
+from tagmetry.cli.arena_run import run
+
+app = typer.Typer(help="Robots under a ceiling camera.", no_args_is_help=True)
+app.command()(calibrate)
+app.command()(audit)
+app.command()(mount)
+app.command()(run)

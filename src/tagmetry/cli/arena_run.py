@@ -1,0 +1,129 @@
+"""`tagmetry arena run`: where every robot is, image by image, and what each may know."""
+
+from collections.abc import Callable
+from contextlib import ExitStack, closing
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tagmetry.cli.arena_options import ArenaFile, SourceName
+from tagmetry.cli.options import CameraFile
+
+if TYPE_CHECKING:
+    from tagmetry.files.arena import ArenaSetup
+    from tagmetry.pipeline.arena import ArenaResult, Latency, Taker
+
+
+def run(  # noqa: PLR0913 (each argument is an option)
+    *,
+    source: SourceName,
+    arena: ArenaFile,
+    camera: CameraFile = None,
+    out: Annotated[
+        Path | None, typer.Option(help="States of all robots: .jsonl; instead of here.")
+    ] = None,
+    link: Annotated[
+        str | None,
+        typer.Option(help="Talk to the robots from this address: 127.0.0.1, 192.168.1.5:6160."),
+    ] = None,
+    poses: Annotated[
+        bool, typer.Option(help="Robots may know where they are, not only their neighbours.")
+    ] = False,
+    lead: Annotated[
+        float, typer.Option(min=0.0, max=0.5, help="Predict so many seconds further ahead.")
+    ] = 0.0,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Print no line for each image.")] = False,
+    limit: Annotated[int | None, typer.Option(min=1, help="Stop after so many images.")] = None,
+) -> None:
+    """Follow the robots of an arena; print a line of JSON for each image."""
+    from tagmetry.cli.arena_options import opened, setup_and_world
+    from tagmetry.cli.interrupts import held_back
+    from tagmetry.pipeline.arena import ArenaMeasurement, Latency, run_arena
+
+    setup, world = setup_and_world(arena, camera)
+    latency = Latency()
+    with ExitStack() as stack:
+        images = stack.enter_context(opened(source, world.view.camera))
+        task = ArenaMeasurement.of(setup, world, is_live=images.is_live, lead_s=lead)
+        takers = _takers(stack, setup, link, out, poses=poses, quiet=quiet, live=images.is_live)
+        results = closing(run_arena(islice(images, limit), task, takers, latency))
+        following = stack.enter_context(results)
+        told: set[str] = set()
+        while True:
+            with held_back():
+                result = next(following, None)
+            if result is None:
+                break
+            _warn(result, told)
+    _sum_up(latency)
+
+
+def _takers(
+    stack: ExitStack,
+    setup: "ArenaSetup",
+    link: str | None,
+    out: Path | None,
+    *,
+    poses: bool,
+    quiet: bool,
+    live: bool,
+) -> "list[Taker]":
+    """Return who takes the results: the link first, then the lines behind a queue."""
+    from tagmetry.pipeline.arena import Posted
+    from tagmetry.pipeline.arena.lines import LineTaker
+
+    takers: list[Taker] = []
+    if link is not None:
+        takers.append(_linked(stack, setup, link, poses=poses))
+    if out is not None:
+        takers.append(Posted(LineTaker(_line_writer(stack, out)), longest=1000, may_drop=live))
+    elif not quiet:
+        takers.append(Posted(LineTaker(typer.echo), longest=4, may_drop=live))
+    return takers
+
+
+def _linked(stack: ExitStack, setup: "ArenaSetup", text: str, *, poses: bool) -> "Taker":
+    from tagmetry.errors import InputError
+    from tagmetry.link import PORT, Host
+    from tagmetry.pipeline.arena.linked import LinkTaker
+
+    address, _, port = text.partition(":")
+    if port and not (port.isdecimal() and int(port) <= 0xFFFF):
+        raise InputError(f"expected an address like 192.168.1.5:{PORT}, got {text[:40]!r}")
+    host = stack.enter_context(Host(setup.keys(), address, int(port) if port else PORT))
+    range_m = setup.sensor.range_m if setup.sensor is not None else float("inf")
+    return LinkTaker(host, range_m, poses=poses)
+
+
+def _line_writer(stack: ExitStack, path: Path) -> "Callable[[str], object]":
+    """Return what writes a line to a file at once, so that others can read along."""
+    from tagmetry.errors import InputError
+    from tagmetry.files.atomic import refusing
+
+    if path.suffix.lower() != ".jsonl":
+        raise InputError(f"the states are JSON lines; name the file like states.jsonl, got {path}")
+    with refusing(path):
+        file = stack.enter_context(path.open("wb", buffering=0))
+    return lambda line: file.write(line.encode() + b"\n")
+
+
+def _warn(result: "ArenaResult", told: set[str]) -> None:
+    """Say once on standard error what a person must know."""
+    step = result.step
+    remarks = [one.told for one in step.events if one.kind in ("jumped", "swapped", "lost")]
+    if step.is_bumped and step.bump is not None and "bump" not in told:
+        told.add("bump")
+        remarks.append(f"all robots are stopped: {step.bump.told}")
+    for key in step.strangers:
+        if str(key) not in told:
+            told.add(str(key))
+            remarks.append(f"{key.family} id {key.id} is no robot's and no floor marker")
+    for remark in remarks:
+        typer.echo(f"tagmetry: {result.world.time_s:.2f} s: {remark}", err=True)
+
+
+def _sum_up(latency: "Latency") -> None:
+    if len(latency):
+        typer.echo(f"tagmetry: {len(latency)} images; image to result {latency.told}", err=True)

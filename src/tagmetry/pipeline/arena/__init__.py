@@ -1,0 +1,18 @@
+"""The running arena: images in, the state of all robots out, to whoever takes it."""
+
+from tagmetry.pipeline.arena.calibrate import calibrate_arena
+from tagmetry.pipeline.arena.latency import Latency
+from tagmetry.pipeline.arena.measurement import ArenaMeasurement, ArenaResult
+from tagmetry.pipeline.arena.posted import Posted
+from tagmetry.pipeline.arena.run import run_arena
+from tagmetry.pipeline.arena.taker import Taker
+
+__all__ = [
+    "ArenaMeasurement",
+    "ArenaResult",
+    "Latency",
+    "Posted",
+    "Taker",
+    "calibrate_arena",
+    "run_arena",
+]

@@ -1,0 +1,183 @@
+"""One image in, the state of all robots out: detect, follow, decide, and what each is told."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from tagmetry.arena import (
+    Arena,
+    ArenaStep,
+    Decision,
+    Neighbourhood,
+    Robot,
+    SafetyRules,
+    StopForAll,
+    Told,
+    WorldState,
+    decide,
+)
+from tagmetry.camera import Camera, Image
+from tagmetry.detect import Detection, Detector, Tracker
+from tagmetry.errors import InputError
+from tagmetry.files.arena import ArenaSetup, ArenaWorld
+from tagmetry.files.families import resolve_family
+from tagmetry.files.text import named_errors
+
+_LONGEST_LEAD_S = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class ArenaResult:
+    """All that came of one image.
+
+    Attributes:
+        image: The image itself, for the record and for pictures.
+        detections: All its markers.
+        step: What they tell.
+        world: All robots at the time of sending.
+        told: What each robot may know, where there is a sensor.
+        decisions: Whether each robot may drive.
+        stop: The stop for all.
+        taken_s: When the image was there, on the clock `time.monotonic`.
+        done_s: When all of this was known, on the same clock.
+    """
+
+    image: Image
+    detections: tuple[Detection, ...]
+    step: ArenaStep
+    world: WorldState
+    told: tuple[Told, ...]
+    decisions: tuple[Decision, ...]
+    stop: StopForAll
+    taken_s: float
+    done_s: float
+
+    @property
+    def latency_s(self) -> float:
+        """From the image to the result."""
+        return self.done_s - self.taken_s
+
+
+@dataclass
+class ArenaMeasurement:
+    """What is done with every image of an arena.
+
+    Attributes:
+        arena: Follows the robots.
+        robots: All of them.
+        camera: Intrinsics of the images.
+        detector: Finds the markers.
+        tracker: Follows them from image to image; where None, every image is looked at whole.
+        neighbourhood: Says what each robot may know.
+        safety: When robots are stopped.
+        is_live: Images arrive by themselves; the state is predicted to the time of sending.
+        lead_s: How much later than the sending what is told takes effect, predicted as well.
+        clock: Seconds that never go back.
+    """
+
+    arena: Arena
+    robots: tuple[Robot, ...]
+    camera: Camera
+    detector: Detector
+    tracker: Tracker | None = None
+    neighbourhood: Neighbourhood | None = None
+    safety: SafetyRules = field(default_factory=SafetyRules)
+    is_live: bool = False
+    lead_s: float = 0.0
+    clock: Callable[[], float] = time.monotonic
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.lead_s <= _LONGEST_LEAD_S:
+            raise InputError(f"lead_s must be 0 to {_LONGEST_LEAD_S} s, got {self.lead_s}")
+        self.stop = StopForAll()
+
+    @classmethod
+    def of(
+        cls,
+        setup: ArenaSetup,
+        world: ArenaWorld,
+        *,
+        track: bool = True,
+        is_live: bool = False,
+        lead_s: float = 0.0,
+    ) -> "ArenaMeasurement":
+        """Return the measurement of an arena's files.
+
+        Raises:
+            InputError: A robot's marker would be higher than the camera.
+        """
+        _check_below_camera(setup, world)
+        arena = Arena(setup.roster, world.view, world.floor, world.reference, setup.motion)
+        detector = Detector([resolve_family(name) for name in setup.families])
+        return cls(
+            arena,
+            setup.roster.robots,
+            world.view.camera,
+            detector,
+            Tracker(detector) if track else None,
+            setup.neighbourhood,
+            setup.safety,
+            is_live,
+            lead_s,
+        )
+
+    def measure(self, image: Image) -> ArenaResult:
+        """Return what an image tells.
+
+        Raises:
+            InputError: It is of another size than the camera's, or its time does not rise.
+        """
+        taken_s = self.clock()
+        with named_errors(image.source or "image"):
+            self.camera.check_image(image.width_px, image.height_px)
+            time_s = image_time_s(image)
+            detections = self._detections(image, time_s)
+            step = self.arena.take(detections, time_s)
+        if self.is_live and 0 <= taken_s - image.time_s < _LONGEST_LEAD_S:
+            taken_s = image.time_s  # a live source's clock is this one
+        world = self._world_at_sending(step, time_s, taken_s)
+        told = self.neighbourhood.tell(world) if self.neighbourhood is not None else ()
+        if step.is_bumped and step.bump is not None:
+            self.press_stop(step.bump.told, time_s)
+        decisions = decide(world, self.robots, self.safety, self.stop)
+        return ArenaResult(
+            image, detections, step, world, told, decisions, self.stop, taken_s, self.clock()
+        )
+
+    def press_stop(self, why: str, time_s: float) -> None:
+        """Stop all robots until `release_stop`."""
+        self.stop = self.stop.pressed(why, time_s)
+
+    def release_stop(self) -> None:
+        """Let robots drive again; a camera that was moved presses again at once."""
+        self.stop = self.stop.reset()
+
+    def _detections(self, image: Image, time_s: float) -> tuple[Detection, ...]:
+        if self.tracker is None:
+            return self.detector.detect(image.pixels, self.camera)
+        return self.tracker.track(image.pixels, time_s, self.camera)
+
+    def _world_at_sending(self, step: ArenaStep, time_s: float, taken_s: float) -> WorldState:
+        """Return the world as it will be when what is told takes effect.
+
+        Of pictures and videos it is that of the image, so that every run gives the same.
+        """
+        if not self.is_live:
+            return step.world if self.lead_s == 0 else self.arena.world_at(time_s + self.lead_s)
+        since_s = min(max(self.clock() - taken_s, 0.0), _LONGEST_LEAD_S)
+        return self.arena.world_at(time_s + since_s + self.lead_s)
+
+
+def image_time_s(image: Image) -> float:
+    """Return an image's time; pictures without one count as one second each."""
+    return float(image.sequence) if image.time_kind == "none" else image.time_s
+
+
+def _check_below_camera(setup: ArenaSetup, world: ArenaWorld) -> None:
+    camera_m = float(world.view.T_world_camera.translation[2])
+    for robot in setup.roster.robots:
+        if robot.mount.height_m >= camera_m:
+            raise InputError(
+                f"{robot.name}: its marker's height of {robot.mount.height_m} m is above the "
+                f"camera, which hangs {camera_m:.2f} m over the floor; heights are in metres"
+            )
