@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tagmetry.calibrate.result import Calibration
-from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.view import BoardView, round_covariances
 from tagmetry.camera import BrownLens, Camera, Lens
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
@@ -59,7 +59,8 @@ def view_of(
     """Return a view of all of the board's corners."""
     count = len(corners_px)
     points = np.arange(count)
-    return BoardView(*size_px, points, BOARD.corners_m, corners_px, np.full(count, sd_px), source)
+    covariances_px2 = round_covariances(np.full(count, sd_px))
+    return BoardView(*size_px, points, BOARD.corners_m, corners_px, covariances_px2, source)
 
 
 def board_poses(count: int, seed: int, camera: Camera = CAMERA) -> RigidTransform:

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.view import BoardView, round_covariances
 from tagmetry.geometry import Array
 
 COLUMNS, ROWS, SQUARE_M = 9, 6, 0.025
@@ -99,7 +99,9 @@ def view_of(
     pixels: Array, size_px: tuple[int, int], source: str = "", sd_px: float = 0.1
 ) -> BoardView:
     sd = np.full(len(pixels), sd_px if sd_px > 0 else 0.1)
-    return BoardView(*size_px, np.arange(len(pixels)), board_points(), pixels, sd, source)
+    return BoardView(
+        *size_px, np.arange(len(pixels)), board_points(), pixels, round_covariances(sd), source
+    )
 
 
 def _placed(

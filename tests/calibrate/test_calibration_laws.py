@@ -7,13 +7,14 @@ import pytest
 from scipy.spatial.transform import Rotation
 from seen_boards import FISHEYE, USUAL, board_points, seen
 
-from tagmetry.calibrate.bundle import Bundle, Freedom, linearise
+from tagmetry.calibrate.bundle import Bundle, Freedom, errors_px, linearise
 from tagmetry.calibrate.fit import begin, fit_flat, release_shape
 from tagmetry.calibrate.freedom import Wanted
 from tagmetry.calibrate.leave_out import information_of_all
 from tagmetry.calibrate.normal import eliminate_poses, normal_equations, pose_changes
 from tagmetry.calibrate.result import Calibration
 from tagmetry.calibrate.sightings import Sightings, gather
+from tagmetry.calibrate.view import BoardView, round_covariances
 from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.geometry import Array
 
@@ -24,19 +25,22 @@ def numbers(found: Calibration) -> Array:
 
 
 @pytest.fixture(scope="module")
-def small() -> tuple[Bundle, Sightings]:
-    """Return three views, one of them partial, and a bundle near them."""
+def small() -> tuple[Bundle, Sightings, list[BoardView]]:
+    """Return three views, one partial and one of slanted errors, and a bundle near them."""
     views = seen(USUAL, 3, np.random.default_rng(0), sd_px=0.5)
     some = slice(5, 31)
     parts = {"points": views[1].points[some], "p_board": views[1].p_board[some]}
-    parts |= {"corners_px": views[1].corners_px[some], "sd_px": views[1].sd_px[some] * 2}
-    sightings = gather([views[0], replace(views[1], **parts), views[2]])
-    return begin(sightings, Wanted("brown5")), sightings
+    parts |= {"corners_px": views[1].corners_px[some]}
+    parts |= {"covariances_px2": 4 * views[1].covariances_px2[some]}
+    slanted = np.tile([[0.3, 0.1], [0.1, 0.2]], (54, 1, 1))
+    unlike = [views[0], replace(views[1], **parts), replace(views[2], covariances_px2=slanted)]
+    sightings = gather(unlike)
+    return begin(sightings, Wanted("brown5")), sightings, unlike
 
 
 def dense_jacobian(bundle: Bundle, sightings: Sightings) -> Array:
     """Return d(predicted, all corners) / d(intrinsics, points, poses) by central differences."""
-    n, k = sightings.weights.shape
+    n, k = sightings.used.shape
     shapes = [len(bundle.intrinsics), 3 * k, 6 * n]
     ends = np.cumsum(shapes)[:2]
 
@@ -49,19 +53,30 @@ def dense_jacobian(bundle: Bundle, sightings: Sightings) -> Array:
     return np.stack([(predicted(step) - predicted(-step)) / 2e-6 for step in steps], axis=1)
 
 
-def test_the_step_solves_the_whole_normal_equations(small: tuple[Bundle, Sightings]) -> None:
-    bundle, sightings = small
+def dense_information(views: list[BoardView]) -> Array:
+    """Return the inverse covariance of all corners of all views, zero for those unseen."""
+    whole = np.zeros((len(views), 54, 2, len(views), 54, 2))
+    for v, view in enumerate(views):
+        for point, covariance in zip(view.points, view.covariances_px2, strict=True):
+            whole[v, point, :, v, point] = np.linalg.inv(covariance)
+    return whole.reshape(len(views) * 108, -1)
+
+
+def test_the_step_solves_the_whole_normal_equations(
+    small: tuple[Bundle, Sightings, list[BoardView]],
+) -> None:
+    bundle, sightings, views = small
     freedom = Freedom(np.eye(9), np.full(3, 1e-3))
     linear = linearise(bundle, sightings, freedom)
     prior = np.append(np.zeros(9), np.full(3 * len(sightings.points), 1e6))
-    normal = normal_equations(linear, sightings.weights, freedom).with_prior(prior, 0 * prior)
+    normal = normal_equations(linear, freedom).with_prior(prior, 0 * prior)
     information, gradient = eliminate_poses(normal)
     shared = np.linalg.solve(information, gradient)
 
     J = dense_jacobian(bundle, sightings)
-    w = np.repeat(sightings.weights.ravel(), 2)
-    whole = J.T @ (w[:, None] * J) + np.diag(np.append(prior, np.zeros(18)))
-    expected = np.linalg.solve(whole, J.T @ (w * linear.error.ravel()))
+    JtW = J.T @ dense_information(views)
+    whole = JtW @ J + np.diag(np.append(prior, np.zeros(18)))
+    expected = np.linalg.solve(whole, JtW @ errors_px(bundle, sightings).ravel())
     np.testing.assert_allclose(shared, expected[:-18], rtol=2e-4, atol=1e-7)
     np.testing.assert_allclose(
         pose_changes(normal, shared).ravel(), expected[-18:], rtol=2e-4, atol=1e-7
@@ -78,7 +93,7 @@ def test_the_intrinsics_derivatives(lens: str) -> None:
         ahead, behind = (bundle.moved(s * along, still, fixed).predict() for s in (1e-6, -1e-6))
         expected = (ahead - behind) / 2e-6
         np.testing.assert_allclose(
-            linear.by_intrinsics[..., column], expected, rtol=1e-5, atol=1e-6
+            0.1 * linear.by_intrinsics[..., column], expected, rtol=1e-5, atol=1e-6
         )
 
 
@@ -139,12 +154,16 @@ def test_corners_count_by_their_standard_deviation() -> None:
         replace(
             v,
             corners_px=v.corners_px + share[:, None] * rng.normal(0, 3, (54, 2)),
-            sd_px=np.where(share, 3.0, 0.1),
+            covariances_px2=round_covariances(np.where(share, 3.0, 0.1)),
         )
         for v, share in zip(views, shares, strict=True)
     ]
     found = calibrate(noisy, "brown5")
-    alike = calibrate([replace(v, sd_px=np.full(54, 1.0)) for v in noisy], "brown5", robust=False)
+    alike = calibrate(
+        [replace(v, covariances_px2=round_covariances(np.ones(54))) for v in noisy],
+        "brown5",
+        robust=False,
+    )
     sd, sd_alike = (np.sqrt(c.formula_covariance[0, 0]) for c in (found, alike))
     assert sd < 0.2 * sd_alike
     assert abs(found.camera.focal_px[0] - USUAL.K[0, 0]) < 3 * sd

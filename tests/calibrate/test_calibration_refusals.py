@@ -22,7 +22,7 @@ def only(view: BoardView, chosen: np.ndarray) -> BoardView:
         points=view.points[chosen],
         p_board=view.p_board[chosen],
         corners_px=view.corners_px[chosen],
-        sd_px=view.sd_px[chosen],
+        covariances_px2=view.covariances_px2[chosen],
     )
 
 

@@ -16,16 +16,13 @@ from tagmetry.files.board_text import parse_board
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import Chessboard
+from tagmetry.pipeline.board_pictures import Sighting, look, sightings, thumbnail
 from tagmetry.pipeline.calibration import (
     CalibrationRun,
     RefusedError,
     Request,
-    Sighting,
     advice_line,
-    look,
     run_calibration,
-    sightings,
-    thumbnail,
     with_provenance,
 )
 from tagmetry.pipeline.guided import checked_uncertainty_px, finished_sightings, guided

@@ -15,7 +15,7 @@ import pytest
 
 from tagmetry.calibrate.guidance import measure, verdict
 from tagmetry.calibrate.quality import Place, pose_error
-from tagmetry.calibrate.view import BoardView, RejectedView
+from tagmetry.calibrate.view import BoardView, RejectedView, round_covariances
 from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.camera import Camera
 from tagmetry.errors import InputError, MissingExtraError
@@ -46,8 +46,8 @@ def facts() -> CalibrationFacts:
         if TRUTH.contains(pixels).all():
             pixels = pixels + rng.normal(0, 0.1, pixels.shape)
             name = HOSTILE if not views else f"folder/{len(views)}.png"
-            sd_px = np.full(54, 0.1)
-            views.append(BoardView(640, 480, np.arange(54), BOARD.corners_m, pixels, sd_px, name))
+            points, spread = np.arange(54), round_covariances(np.full(54, 0.1))
+            views.append(BoardView(640, 480, points, BOARD.corners_m, pixels, spread, name))
     solved = calibrate(views)
     evidence = measure(solved, 0.1)
     error = pose_error(solved, 0.1, [Place((320.0, 240.0), 1.0)])[0]

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from tagmetry.calibrate.guidance import Verdict as Verdict
     from tagmetry.calibrate.guidance import verdict as verdict
     from tagmetry.calibrate.result import Calibration as Calibration
+    from tagmetry.calibrate.second_look import look_again as look_again
     from tagmetry.calibrate.targets import BoardFindings as BoardFindings
     from tagmetry.calibrate.targets import explain_board as explain_board
     from tagmetry.calibrate.targets import find_board as find_board
@@ -33,6 +34,7 @@ _HOMES = {
     "diagnose_board": "doctor",
     "explain_board": "targets",
     "find_board": "targets",
+    "look_again": "second_look",
     "verdict": "guidance",
 }
 
@@ -50,6 +52,7 @@ __all__ = [
     "diagnose_board",
     "explain_board",
     "find_board",
+    "look_again",
     "verdict",
 ]
 

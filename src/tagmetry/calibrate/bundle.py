@@ -98,13 +98,13 @@ class Freedom:
 
 @dataclass(frozen=True, eq=False)
 class Linear:
-    """Errors and Jacobians of the predictions at one place.
+    """Errors and Jacobians of the predictions at one place, in standard deviations of corners.
 
     Attributes:
-        error: Seen minus predicted, shape (n, k, 2), px; zero where a corner does not count.
+        error: Seen minus predicted, shape (n, k, 2); zero where a corner does not count.
         by_intrinsics: Over the free intrinsics, shape (n, k, 2, free).
         by_pose: Shape (n, k, 2, 6).
-        by_point: d(pixel) / d(its own point), shape (n, k, 2, 3).
+        by_point: Over the corner's own point, shape (n, k, 2, 3); (n, k, 2, 0) where it is held.
     """
 
     error: Array
@@ -123,6 +123,11 @@ def errors_px(bundle: Bundle, seen: Sightings) -> Array:
     return np.where(seen.used[..., None], seen.corners_px - bundle.predict(), 0.0)
 
 
+def errors_in_sd(bundle: Bundle, seen: Sightings) -> Array:
+    """Return the same in standard deviations, errors of independent axes."""
+    return seen.whiten(errors_px(bundle, seen))
+
+
 def linearise(bundle: Bundle, seen: Sightings, freedom: Freedom) -> Linear:
     """Return the errors and their analytic Jacobians."""
     arms = bundle.arms()
@@ -135,9 +140,9 @@ def linearise(bundle: Bundle, seen: Sightings, freedom: Freedom) -> Linear:
         seen.corners_px - predicted,
         _by_free(bundle, bent, by_coefficients, freedom),
         _by_pose(arms, by_p_camera),
-        _by_point(by_p_camera, bundle.R_camera_board),
+        _by_point(by_p_camera, bundle.R_camera_board, freedom),
     )
-    return Linear(*(_where_used(part, seen.used) for part in parts))
+    return Linear(*(seen.whiten(_where_used(part, seen.used)) for part in parts))
 
 
 def _by_free(bundle: Bundle, bent: Array, by_coefficients: Array, freedom: Freedom) -> Array:
@@ -164,8 +169,10 @@ def _by_pose(arms: Array, by_p_camera: Array) -> Array:
     return by_pose
 
 
-def _by_point(by_p_camera: Array, R_camera_board: Array) -> Array:
-    """Return d(pixel) / d(board point), shape (n, k, 2, 3)."""
+def _by_point(by_p_camera: Array, R_camera_board: Array, freedom: Freedom) -> Array:
+    """Return d(pixel) / d(board point), shape (n, k, 2, 3); none where points are held."""
+    if freedom.shape_sd_m is None:
+        return by_p_camera[..., :0]
     flat = by_p_camera.reshape(len(R_camera_board), -1, 3) @ R_camera_board
     return np.asarray(flat.reshape(by_p_camera.shape))
 

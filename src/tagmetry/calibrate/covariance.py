@@ -69,7 +69,7 @@ def covariances(bundle: Bundle, seen: Sightings, freedom: Freedom) -> Covariance
         LinAlgError: The views do not determine the camera.
     """
     linear = linearise(bundle, seen, freedom)
-    information, _ = eliminate_poses(normal_equations(linear, seen.weights, freedom))
+    information, _ = eliminate_poses(normal_equations(linear, freedom))
     information += np.diag(_prior(bundle, seen, freedom))
     scale = np.sqrt(np.diag(information))
     inverse = np.linalg.inv(information / np.outer(scale, scale)) / np.outer(scale, scale)
@@ -135,7 +135,7 @@ def _by_view(linear: Linear, seen: Sightings, freedom: Freedom) -> Iterator[tupl
     """Give each view's own information (m, m) and gradient (m,) of the shared numbers."""
     for v in range(len(seen)):
         one = slice(v, v + 1)
-        yield eliminate_poses(normal_equations(linear.only(one), seen.weights[one], freedom))
+        yield eliminate_poses(normal_equations(linear.only(one), freedom))
 
 
 def _unbiased(own: Array, gradient: Array, inverse: Array, root: Array) -> tuple[Array, Array]:
@@ -170,7 +170,7 @@ def _prior(bundle: Bundle, seen: Sightings, freedom: Freedom) -> Array:
 
 def _unit_variance(linear: Linear, seen: Sightings, freedom: Freedom) -> float:
     """Return s^2: the mean squared error in units of the corners' own sd, per spare equation."""
-    cost = float((seen.weights[..., None] * linear.error**2).sum())
+    cost = float((linear.error**2).sum())
     unknowns = freedom.count + 6 * len(seen)
     if freedom.shape_sd_m is not None:
         unknowns += 3 * len(seen.points) - 7

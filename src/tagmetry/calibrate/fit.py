@@ -62,7 +62,7 @@ def release_shape(flat: Fit, seen: Sightings, *, robust: bool) -> Fit:
     and measurement weigh as they should.
     """
     freedom = replace(flat.freedom, shape_sd_m=shape_belief_m(seen.p_board))
-    seen = replace(seen, weights=seen.weights / flat.scale**2)
+    seen = seen.weighted(np.array(flat.scale**-2.0))
     return _solved(flat.bundle, seen, freedom, robust=robust)
 
 

@@ -40,8 +40,7 @@ def quick_hold_out_px(fit: Fit, most_rounds: int) -> float:
 
 def _of_views(fit: Fit, linear: Linear, views: IntArray) -> tuple[Array, Array]:
     """Return information (m, m) and gradient (m,) that some views have of the shared numbers."""
-    weights = fit.seen.weights[views]
-    return eliminate_poses(normal_equations(linear.only(views), weights, fit.freedom))
+    return eliminate_poses(normal_equations(linear.only(views), fit.freedom))
 
 
 def information_of_all(fit: Fit, linear: Linear) -> tuple[Array, Array]:

@@ -48,19 +48,17 @@ class Normal:
         return replace(self, U=self.U + np.diag(information), g=g)
 
 
-def normal_equations(linear: Linear, weights: Array, freedom: Freedom) -> Normal:
+def normal_equations(linear: Linear, freedom: Freedom) -> Normal:
     """Return the blocks.
 
     Args:
-        linear: Errors and Jacobians.
-        weights: Of the corners, shape (n, k), 1 / px^2.
+        linear: Errors and Jacobians, in standard deviations.
         freedom: What is free.
     """
-    flat = (len(weights), 2 * weights.shape[1])
-    root = np.sqrt(weights)[..., None]
-    error = (root * linear.error).reshape(*flat, 1)
-    by_pose = (root[..., None] * linear.by_pose).reshape(*flat, 6)
-    by_intrinsics = (root[..., None] * linear.by_intrinsics).reshape(*flat, freedom.count)
+    n, k = linear.error.shape[:2]
+    error = linear.error.reshape(n, 2 * k, 1)
+    by_pose = linear.by_pose.reshape(n, 2 * k, 6)
+    by_intrinsics = linear.by_intrinsics.reshape(n, 2 * k, freedom.count)
     turned, pose = np.swapaxes(by_intrinsics, 1, 2), np.swapaxes(by_pose, 1, 2)
     normal = Normal(
         (turned @ by_intrinsics).sum(axis=0),
@@ -69,7 +67,7 @@ def normal_equations(linear: Linear, weights: Array, freedom: Freedom) -> Normal
         (turned @ error)[..., 0],
         (pose @ error)[..., 0],
     )
-    return normal if freedom.shape_sd_m is None else _with_points(normal, linear, weights)
+    return normal if freedom.shape_sd_m is None else _with_points(normal, linear)
 
 
 def eliminate_poses(normal: Normal) -> tuple[Array, Array]:
@@ -86,11 +84,11 @@ def pose_changes(normal: Normal, shared: Array) -> Array:
     return np.asarray(np.linalg.solve(normal.V, rest[..., None])[..., 0])
 
 
-def _with_points(normal: Normal, linear: Linear, weights: Array) -> Normal:
+def _with_points(normal: Normal, linear: Linear) -> Normal:
     """Return the blocks with the points' own; each corner knows of one point only."""
-    n, k = weights.shape
+    n, k = linear.error.shape[:2]
     c = normal.W.shape[1]
-    turned = np.swapaxes(weights[..., None, None] * linear.by_point, 2, 3)
+    turned = np.swapaxes(linear.by_point, 2, 3)
     with_pose = (turned @ linear.by_pose).reshape(n, 3 * k, 6)
     gradient = (turned @ linear.error[..., None]).reshape(n, 3 * k)
     across = (turned @ linear.by_intrinsics).sum(axis=0).reshape(3 * k, c)

@@ -10,7 +10,7 @@ Reference: P. Huber, Robust Estimation of a Location Parameter, 1964.
 
 import numpy as np
 
-from tagmetry.calibrate.bundle import Bundle, Freedom, errors_px
+from tagmetry.calibrate.bundle import Bundle, Freedom, errors_in_sd, errors_px
 from tagmetry.calibrate.sightings import Sightings
 from tagmetry.calibrate.solve import Solution, solve
 from tagmetry.geometry import Array
@@ -64,7 +64,7 @@ def settle_softly(
 
 def lengths_in_sd(bundle: Bundle, seen: Sightings) -> Array:
     """Return how far corners are off in units of their own sd, (n, k); NaN: not projected."""
-    return np.asarray(np.sqrt(seen.weights) * np.linalg.norm(errors_px(bundle, seen), axis=-1))
+    return np.asarray(np.linalg.norm(errors_in_sd(bundle, seen), axis=-1))
 
 
 def robust_scale(lengths: Array, seen: Sightings) -> float:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tagmetry.calibrate.bundle import Bundle, errors_px
+from tagmetry.calibrate.bundle import Bundle, errors_in_sd, errors_px
 from tagmetry.calibrate.choice import LENS_NAMES, LensName, ModelChoice, ModelRow
 from tagmetry.calibrate.covariance import covariances
 from tagmetry.calibrate.fit import Fit, fit_flat, refit
@@ -160,7 +160,7 @@ def _rms_px(fit: Fit) -> float:
 
 def bayesian_information(fit: Fit) -> float:
     """Return m ln(chi^2 / m) + p ln m for m equations and p free numbers, poses included."""
-    chi2 = float((fit.seen.weights[..., None] * errors_px(fit.bundle, fit.seen) ** 2).sum())
+    chi2 = float((errors_in_sd(fit.bundle, fit.seen) ** 2).sum())
     equations = 2 * fit.seen.corner_count
     unknowns = fit.freedom.count + 6 * len(fit.seen)
     return float(equations * np.log(chi2 / equations) + unknowns * np.log(equations))

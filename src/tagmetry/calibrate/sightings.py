@@ -20,23 +20,29 @@ class Sightings:
         points: The numbers of the points that any view shows, shape (k,).
         p_board: Where the board's maker put them, shape (k, 3), metres.
         corners_px: Shape (n, k, 2); zero where a view does not show the point.
-        weights: 1 / sd^2 of a corner, shape (n, k), 1 / px^2; zero where it is not to be used.
+        whiteners: Turn errors in pixels into standard deviations, shape (n, k, 2, 2), upper
+            triangular, 1 / px; zero where a corner is not to be used.
     """
 
     size_px: tuple[int, int]
     points: IntArray
     p_board: Array
     corners_px: Array
-    weights: Array
+    whiteners: Array
 
     def __len__(self) -> int:
         """How many views."""
         return len(self.corners_px)
 
     @property
+    def weights(self) -> Array:
+        """What each corner tells along an axis in the mean, shape (n, k), 1 / px^2."""
+        return np.asarray((self.whiteners**2).sum(axis=(2, 3)) / 2)
+
+    @property
     def used(self) -> BoolArray:
         """Which corners count, shape (n, k)."""
-        return self.weights > 0
+        return np.asarray(self.whiteners[..., 1, 1] > 0)
 
     @property
     def corner_count(self) -> int:
@@ -45,11 +51,20 @@ class Sightings:
 
     def only(self, views: IntArray | BoolArray) -> "Sightings":
         """Return some of the views."""
-        return replace(self, corners_px=self.corners_px[views], weights=self.weights[views])
+        return replace(self, corners_px=self.corners_px[views], whiteners=self.whiteners[views])
 
     def weighted(self, factors: Array | BoolArray) -> "Sightings":
         """Return the views with the weights multiplied by factors (n, k)."""
-        return replace(self, weights=self.weights * factors)
+        return replace(self, whiteners=self.whiteners * np.sqrt(factors)[..., None, None])
+
+    def whiten(self, pixels: Array) -> Array:
+        """Return errors in pixels, or their derivatives, (n, k, 2, ...) in standard deviations."""
+        W = self.whiteners.reshape(*self.whiteners.shape, *(1,) * (pixels.ndim - 3))
+        whitened = np.empty_like(pixels)
+        np.multiply(W[:, :, 0, 1], pixels[:, :, 1], out=whitened[:, :, 0])
+        whitened[:, :, 0] += W[:, :, 0, 0] * pixels[:, :, 0]
+        np.multiply(W[:, :, 1, 1], pixels[:, :, 1], out=whitened[:, :, 1])
+        return whitened
 
 
 def gather(views: Sequence[BoardView]) -> Sightings:
@@ -61,14 +76,20 @@ def gather(views: Sequence[BoardView]) -> Sightings:
     _check_sizes(views)
     points = np.unique(np.concatenate([view.points for view in views]))
     shape = (len(views), len(points))
-    corners, weights = np.zeros((*shape, 2)), np.zeros(shape)
+    corners, whiteners = np.zeros((*shape, 2)), np.zeros((*shape, 2, 2))
     p_board = np.full((len(points), 3), np.nan)
     for row, view in enumerate(views):
         columns = np.searchsorted(points, view.points)
-        corners[row, columns], weights[row, columns] = view.corners_px, view.sd_px**-2.0
+        corners[row, columns] = view.corners_px
+        whiteners[row, columns] = whitening(view.covariances_px2)
         _check_same(p_board[columns], view)
         p_board[columns] = view.p_board
-    return Sightings(views[0].size_px, points, p_board, corners, weights)
+    return Sightings(views[0].size_px, points, p_board, corners, whiteners)
+
+
+def whitening(covariances_px2: Array) -> Array:
+    """Return the upper triangular W with W^T W the inverse of each covariance (..., 2, 2)."""
+    return np.asarray(np.swapaxes(np.linalg.cholesky(np.linalg.inv(covariances_px2)), -1, -2))
 
 
 def _check_sizes(views: Sequence[BoardView]) -> None:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.calibrate.bundle import Bundle, Freedom, errors_px, linearise
+from tagmetry.calibrate.bundle import Bundle, Freedom, errors_in_sd, linearise
 from tagmetry.calibrate.normal import (
     Normal,
     eliminate_poses,
@@ -73,7 +73,7 @@ def _step(bundle: Bundle, normal: Normal, seen: Sightings, freedom: Freedom) -> 
 
 def _normal(bundle: Bundle, seen: Sightings, freedom: Freedom) -> Normal:
     """Return the normal equations with the prior on the shape."""
-    normal = normal_equations(linearise(bundle, seen, freedom), seen.weights, freedom)
+    normal = normal_equations(linearise(bundle, seen, freedom), freedom)
     if freedom.shape_sd_m is None:
         return normal
     information, pull = shape_prior(bundle, seen, freedom.shape_sd_m)
@@ -91,7 +91,7 @@ def _cost(bundle: Bundle, seen: Sightings, freedom: Freedom) -> float:
     if not bundle.is_possible:
         return np.inf
     with np.errstate(over="ignore", invalid="ignore"):
-        cost = (seen.weights[..., None] * errors_px(bundle, seen) ** 2).sum()
+        cost = (errors_in_sd(bundle, seen) ** 2).sum()
     if freedom.shape_sd_m is not None:
         cost += (((bundle.p_board - seen.p_board) / freedom.shape_sd_m) ** 2).sum()
     return float(cost) if np.isfinite(cost) else np.inf

@@ -9,7 +9,8 @@ import typer
 from tagmetry.cli.options import Json
 
 if TYPE_CHECKING:
-    from tagmetry.pipeline.calibration import CalibrationRun, Request, Sighting
+    from tagmetry.pipeline.board_pictures import Sighting
+    from tagmetry.pipeline.calibration import CalibrationRun, Request
 
 
 def calibrate(  # noqa: PLR0913 (each argument is an option)
@@ -142,7 +143,7 @@ def _sightings(sources: list[str], request: "Request") -> "Iterator[Sighting]":
     from tagmetry.cli.progress import progress
     from tagmetry.errors import InputError
     from tagmetry.pipeline import open_images
-    from tagmetry.pipeline.calibration import sightings
+    from tagmetry.pipeline.board_pictures import sightings
 
     for spec in sources:
         with open_images(spec) as source:

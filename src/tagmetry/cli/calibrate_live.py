@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from tagmetry.calibrate.guidance import Session
     from tagmetry.camera import Image
     from tagmetry.markers import Board
-    from tagmetry.pipeline.calibration import Sighting
+    from tagmetry.pipeline.board_pictures import Sighting
     from tagmetry.pipeline.guided import Step
 
 

@@ -1,12 +1,12 @@
 """Pictures of a board to a calibration, and all that tells what it is worth.
 
-pictures -> views, or why there is none -> the views that tell most -> camera -> quality
+pictures -> views, or why there is none -> the views that tell most -> a first camera
+    -> the views as it shows their corners -> camera -> quality
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-import cv2
 import numpy as np
 
 from tagmetry.calibrate.choice import LensModel
@@ -18,21 +18,18 @@ from tagmetry.calibrate.doctor import (
 )
 from tagmetry.calibrate.guidance import most_informative
 from tagmetry.calibrate.result import Calibration
-from tagmetry.calibrate.targets import find_board
 from tagmetry.calibrate.view import BoardView, RejectedView
 from tagmetry.calibrate.views_to_camera import calibrate
-from tagmetry.camera import Image
 from tagmetry.errors import InputError
 from tagmetry.files.board_text import board_text
-from tagmetry.geometry.arrays import AnyPixels, GreyPixels
+from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import Board
 from tagmetry.pipeline.assessment import Assessment, assess
+from tagmetry.pipeline.board_pictures import Sighting, looked_again
 from tagmetry.record.calibration_report import CalibrationFacts
 
 MOST_VIEWS = 100  # of a long video, where nothing else was asked for
 _LEAST_VIEWS = 3
-_THUMBNAIL_PX = 240
-_LOOKED_AT = 6  # pictures that the doctor looks at
 
 
 @dataclass(frozen=True)
@@ -63,21 +60,6 @@ class Request:
             raise InputError(
                 f"a calibration needs at least {_LEAST_VIEWS} views, asked for {self.most_views}"
             )
-
-
-@dataclass(frozen=True, eq=False)
-class Sighting:
-    """What one picture gave.
-
-    Attributes:
-        result: The board's corners, or why there are none.
-        thumbnail: The picture, small and grey; empty where it could not be read.
-        pixels: The picture itself, where the doctor may want to look at it.
-    """
-
-    result: BoardView | RejectedView
-    thumbnail: GreyPixels
-    pixels: AnyPixels | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,55 +118,27 @@ def advice_line(advice: BoardAdvice) -> str:
     return f"{advice}; ask for --board {board_text(advice.board)}"
 
 
-def sightings(images: Iterable[Image], board: Board) -> Iterator[Sighting]:
-    """Give what each picture shows; one that cannot be read counts as showing nothing.
-
-    Args:
-        images: Of a finite source.
-        board: What to look for.
-    """
-    following = iter(images)
-    looked_at = 0
-    while True:
-        try:
-            image = next(following)
-        except StopIteration:
-            return
-        except InputError as error:
-            yield Sighting(RejectedView("", str(error)), np.zeros((0, 0), np.uint8))
-            continue
-        seen = look(image, board)
-        looked_at += 1
-        yield seen if looked_at <= _LOOKED_AT else replace(seen, pixels=None)
-
-
-def look(image: Image, board: Board) -> Sighting:
-    """Return what a picture shows of a board."""
-    place = image.source if image.time_kind == "none" else f"{image.source} [{image.sequence}]"
-    result = find_board(image.pixels, board, source=place)
-    return Sighting(result, thumbnail(image.pixels), image.pixels)
-
-
 def run_calibration(seen: Sequence[Sighting], request: Request) -> CalibrationRun:
     """Return the calibration that sightings of a board give.
 
     Raises:
         RefusedError: They give none; it says why, and what the board seems to be instead.
     """
-    views = [one.result for one in seen if isinstance(one.result, BoardView)]
     rejected = tuple(one.result for one in seen if isinstance(one.result, RejectedView))
     advice = (*_advice(seen, request.board), *check_measured(request.board, request.measured_m))
     try:
-        chosen, spare = _chosen(views, request.most_views)
-        calibration = _solved(chosen, request)
+        chosen, spare = _chosen(_views(seen), request.most_views)
+        first = _solved(chosen, request)
+        again = looked_again(seen, first, request.board)
+        calibration = _solved(_views(again), request)
     except InputError as error:
         raise RefusedError(str(error), rejected, advice) from error
-    thumbnails = {id(one.result): one.thumbnail for one in seen}
+    thumbnails = {id(one.result): one.thumbnail for one in again}
     return CalibrationRun(
         request,
         calibration,
         assess(calibration, request.board),
-        (*rejected, *calibration.rejected, *spare),
+        (*rejected, *first.rejected, *calibration.rejected, *spare),
         tuple(thumbnails[id(view)] for view in calibration.views),
         (*advice, *check_print_aspect(calibration)),
     )
@@ -207,15 +161,8 @@ def with_provenance(run: CalibrationRun, board: str, program: str, when: str) ->
     return replace(run, calibration=replace(solved, camera=replace(solved.camera, provenance=told)))
 
 
-def thumbnail(pixels: AnyPixels) -> GreyPixels:
-    """Return a picture small and grey, 8 bits."""
-    share = min(1.0, _THUMBNAIL_PX / max(pixels.shape[:2]))
-    size = (max(1, round(pixels.shape[1] * share)), max(1, round(pixels.shape[0] * share)))
-    small = np.asarray(cv2.resize(pixels, size, interpolation=cv2.INTER_AREA))
-    if small.dtype == np.uint16:
-        small = (small // 257).astype(np.uint8)
-    grey = cv2.cvtColor(small, cv2.COLOR_BGR2GRAY) if small.ndim == 3 else small
-    return np.asarray(grey, dtype=np.uint8)
+def _views(seen: Sequence[Sighting]) -> list[BoardView]:
+    return [one.result for one in seen if isinstance(one.result, BoardView)]
 
 
 def _solved(views: Sequence[BoardView], request: Request) -> Calibration:

@@ -12,7 +12,7 @@ from tagmetry.camera import Image
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels, GreyPixels
 from tagmetry.markers import Board
-from tagmetry.pipeline.calibration import Sighting, thumbnail
+from tagmetry.pipeline.board_pictures import Sighting, thumbnail
 
 _STILL_S = 1 / 30  # between pictures that have no time
 
@@ -59,7 +59,7 @@ def finished_sightings(steps: Iterable[Sighting], last: AnyPixels | None) -> tup
     if taken or last is None:
         return taken
     nothing = RejectedView("", "the board was never seen still and sharp")
-    return (Sighting(nothing, np.zeros((0, 0), np.uint8), last),)
+    return (Sighting(nothing, np.zeros((0, 0), np.uint8), pixels=last),)
 
 
 def _stepped(session: Session, image: Image) -> Step:
@@ -72,7 +72,7 @@ def _stepped(session: Session, image: Image) -> Step:
     if not after.outcome.taken:
         return Step(after)
     small: GreyPixels = thumbnail(image.pixels)
-    return Step(after, Sighting(found.result, small, image.pixels))
+    return Step(after, Sighting(found.result, small, found.patches, image.pixels))
 
 
 def checked_uncertainty_px(text: str) -> float:

@@ -7,7 +7,7 @@ import pytest
 
 from tagmetry.calibrate.doctor import check_measured, check_print_aspect
 from tagmetry.calibrate.result import Calibration
-from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.view import BoardView, round_covariances
 from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.camera import Camera
 from tagmetry.errors import InputError
@@ -74,8 +74,8 @@ def seen_by(focal_px: tuple[float, float], stretch: float) -> Calibration:
         if not camera.contains(pixels).all():
             continue
         pixels = pixels + rng.normal(0, 0.05, pixels.shape)
-        sd_px = np.full(len(pixels), 0.05)
-        views.append(BoardView(1280, 960, np.arange(len(pixels)), p_board, pixels, sd_px))
+        covariances_px2 = round_covariances(np.full(len(pixels), 0.05))
+        views.append(BoardView(1280, 960, np.arange(len(pixels)), p_board, pixels, covariances_px2))
     return calibrate(views, "brown2")
 
 

@@ -27,7 +27,9 @@ def moved(by_px: float, view: BoardView = VIEW) -> BoardView:
 
 
 def part(view: BoardView, chosen: slice) -> BoardView:
-    fields = {n: getattr(view, n)[chosen] for n in ("points", "p_board", "corners_px", "sd_px")}
+    fields = {
+        n: getattr(view, n)[chosen] for n in ("points", "p_board", "corners_px", "covariances_px2")
+    }
     return replace(view, **fields)
 
 

@@ -61,7 +61,7 @@ def test_after_more_views_the_covariance_is_that_of_opencv() -> None:
 
 def test_deviations_that_were_claimed_wrong_do_no_harm() -> None:
     """Ten times the true sd of every corner: what the errors show counts, not what was claimed."""
-    claimed = [replace(view, sd_px=10 * view.sd_px) for view in VIEWS]
+    claimed = [replace(view, covariances_px2=100 * view.covariances_px2) for view in VIEWS]
     start = Knowledge.of_calibration(calibration_of(CAMERA, claimed[:6], POSES[:6]))
     np.testing.assert_allclose(start.worst_px, known().worst_px, rtol=1e-6)
     after = start.with_views(claimed[6:]).worst_px

@@ -18,11 +18,12 @@ FOCAL_PX = 700.0
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A picture of a board, the camera that took it, and where the board's points truly are."""
+    """A picture of a board, the camera that took it, where the board and its points truly are."""
 
     pixels: np.ndarray
     camera: Camera
     truth_px: Array
+    T_camera_board: RigidTransform
 
     def errors_px(self, view: BoardView) -> Array:
         """Return found minus true, shape (n, 2)."""
@@ -61,7 +62,8 @@ def picture(
     )
     scene = Scene((board_thing(board, Still(T_camera_board), margin_m=spacing_m(board)),))
     pixels = photograph(scene, shot, np.random.default_rng(seed))
-    return Picture(pixels, camera, camera.project(T_camera_board.apply(board.corners_m)))
+    truth_px = camera.project(T_camera_board.apply(board.corners_m))
+    return Picture(pixels, camera, truth_px, T_camera_board)
 
 
 def facing(tilt_deg: float, axis_deg: float, roll_deg: float) -> Rotation:

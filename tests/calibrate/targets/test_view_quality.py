@@ -13,7 +13,7 @@ from tagmetry.calibrate.targets import (
     find_board,
     view_quality,
 )
-from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.view import BoardView, round_covariances
 from tagmetry.errors import InputError
 from tagmetry.files.board_text import parse_board
 
@@ -72,7 +72,7 @@ def test_a_point_near_the_edge_is_said() -> None:
     cut = np.ascontiguousarray(shown.pixels[:, low_px[0] :])
     view = BoardView(
         cut.shape[1], cut.shape[0], np.arange(54), CHESSBOARD.corners_m,
-        shown.truth_px - [low_px[0], 0], np.full(54, 0.1),
+        shown.truth_px - [low_px[0], 0], round_covariances(np.full(54, 0.1)),
     )  # fmt: skip
     assert view_quality(cut, view).touches_border
 

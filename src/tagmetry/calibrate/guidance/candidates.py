@@ -96,9 +96,10 @@ def candidates(
         raise InputError(
             "no place within the limits shows enough of the board; allow it to be farther away"
         )
-    weights = inside[enough] / known.corner_sd_px**2
-    points, nowhere = np.arange(len(p_board)), np.zeros((*weights.shape, 2))
-    seen = Sightings(camera.size_px, points, p_board, nowhere, weights)
+    shown = inside[enough]
+    whiteners = shown[..., None, None] * np.eye(2) / known.corner_sd_px
+    points, nowhere = np.arange(len(p_board)), np.zeros((*shown.shape, 2))
+    seen = Sightings(camera.size_px, points, p_board, nowhere, whiteners)
     return Candidates(tuple(places[i] for i in enough), bundle.only(enough), seen)
 
 

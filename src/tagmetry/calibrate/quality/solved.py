@@ -25,7 +25,7 @@ class Solved:
         bundle: The camera, the board's poses and points.
         seen: The corners; those that were left out have no weight.
         freedom: What was free: each column of its basis is one step of about a standard deviation.
-        variance: Mean squared error of a corner along an axis in units of its own `sd_px`.
+        variance: Mean squared error of a corner along an axis in its own deviations.
     """
 
     bundle: Bundle
@@ -51,7 +51,7 @@ class Solved:
         if (
             calibration.shape_released
         ):  # the belief in the board weighs against the errors' own size
-            seen, variance = replace(seen, weights=seen.weights / variance), 1.0
+            seen, variance = seen.weighted(np.array(1 / variance)), 1.0
             freedom = replace(freedom, shape_sd_m=shape_belief_m(seen.p_board))
         return cls(bundle, seen, freedom, variance)
 
@@ -90,10 +90,10 @@ def view_equations(bundle: Bundle, seen: Sightings, freedom: Freedom) -> tuple[A
     Reference: B. Triggs et al., Bundle Adjustment, 2000, section 6.1, for one view.
     """
     linear = linearise(bundle, seen, freedom)
-    root, n = np.sqrt(seen.weights)[..., None, None], len(seen)
-    by_intrinsics = (root * linear.by_intrinsics).reshape(n, -1, freedom.count)
-    error = (root * linear.error[..., None]).reshape(n, -1, 1)
-    by_pose = (root * linear.by_pose).reshape(n, -1, 6)
+    n = len(seen)
+    by_intrinsics = linear.by_intrinsics.reshape(n, -1, freedom.count)
+    error = linear.error.reshape(n, -1, 1)
+    by_pose = linear.by_pose.reshape(n, -1, 6)
     size = np.maximum(np.linalg.norm(by_pose, axis=1, keepdims=True), 1e-300)
     axes, _ = np.linalg.qr(by_pose / size)
     left = by_intrinsics - axes @ (np.swapaxes(axes, 1, 2) @ by_intrinsics)
@@ -119,7 +119,7 @@ def honest_covariance(calibration: Calibration) -> Array:
 def _weighed(calibration: Calibration) -> Sightings:
     """Return the corners with those that were left out at no weight."""
     seen = gather(calibration.views)
-    factors = np.zeros(seen.weights.shape)
+    factors = np.zeros(seen.used.shape)
     for row, (view, kept) in enumerate(zip(calibration.views, calibration.kept, strict=True)):
         factors[row, np.searchsorted(seen.points, view.points)] = kept
     return seen.weighted(factors)
@@ -128,4 +128,4 @@ def _weighed(calibration: Calibration) -> Sightings:
 def _variance(bundle: Bundle, seen: Sightings, freedom: Freedom) -> float:
     error = linearise(bundle, seen, freedom).error
     spare = 2 * seen.corner_count - freedom.count - 6 * len(seen)
-    return float((seen.weights[..., None] * error**2).sum() / max(spare, 1))
+    return float((error**2).sum() / max(spare, 1))

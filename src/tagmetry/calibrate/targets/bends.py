@@ -81,12 +81,16 @@ def _sampled(places: Array, corners_px: Array) -> _Samples:
         return _Samples(np.zeros((0, 2)), np.zeros(0), np.zeros(0))
     rows = np.array(triples)
     a, b, c = (corners_px[row] for row in rows.T)
+    weights = np.linalg.norm(b - a, axis=1) * np.linalg.norm(c - b, axis=1)
+    return _Samples(places[rows].mean(axis=1), curvature(a, b, c), weights)
+
+
+def curvature(a: Array, b: Array, c: Array) -> Array:
+    """Return that of the circles through three points (n, 2) each, shape (n,)."""
     before, after = b - a, c - b
     lengths = [np.linalg.norm(part, axis=1) for part in (before, after, c - a)]
     turn = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-    return _Samples(
-        places[rows].mean(axis=1), 2 * turn / np.prod(lengths, axis=0), lengths[0] * lengths[1]
-    )
+    return np.asarray(2 * turn / np.prod(lengths, axis=0))
 
 
 def _triples(places: Array) -> Iterator[tuple[int, int, int]]:

@@ -16,6 +16,7 @@ from tagmetry.calibrate.targets.discs import disc_centres
 from tagmetry.calibrate.targets.found import Found, NotFound, dropped
 from tagmetry.calibrate.targets.homography import fitted_homography
 from tagmetry.calibrate.targets.order import in_board_order
+from tagmetry.calibrate.view import round_covariances
 from tagmetry.geometry import Array, apply_homography
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import CircleGrid
@@ -46,7 +47,7 @@ def find_circles(grey: GreyPixels, board: CircleGrid) -> Found | NotFound:
     if is_disc.mean() < _LEAST_KEPT:
         return NotFound(f"only {is_disc.sum()} of {wanted} stand out from their ground", ordered)
     lost = dropped(points, ordered, ~is_disc, "no dark disc on a bright ground")
-    return Found(points[is_disc], unbiased[is_disc], sd_px[is_disc], lost)
+    return Found(points[is_disc], unbiased[is_disc], round_covariances(sd_px[is_disc]), lost)
 
 
 def perspective_bias_px(circles_m: Array, H: Array) -> Array:

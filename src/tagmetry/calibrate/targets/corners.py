@@ -11,6 +11,7 @@ import numpy as np
 
 from tagmetry.calibrate.targets.bends import Bends, line_bends
 from tagmetry.calibrate.targets.found import DroppedPoint, Found, dropped
+from tagmetry.calibrate.targets.patches import cut_out
 from tagmetry.calibrate.targets.saddles import Saddles, fit_saddles
 from tagmetry.calibrate.targets.window import MOST_HALF_PX
 from tagmetry.geometry import Array
@@ -42,10 +43,14 @@ class Guesses:
     down_px: Array
 
     @property
+    def steps_px(self) -> Array:
+        """Both steps, one in each column, shape (n, 2, 2)."""
+        return np.stack([self.along_px, self.down_px], axis=-1)
+
+    @property
     def shortest_px(self) -> Array:
         """Length of the shorter step of each, shape (n,)."""
-        steps_px = (self.along_px, self.down_px)
-        return np.asarray(np.min([np.linalg.norm(step, axis=1) for step in steps_px], axis=0))
+        return np.asarray(np.linalg.norm(self.steps_px, axis=1).min(axis=1))
 
     def only(self, kept: BoolArray | IntArray) -> "Guesses":
         """Return some of them."""
@@ -79,7 +84,10 @@ def refined(
     bends = line_bends(guesses.places, guesses.corners_px)
     bent = _fitted(grey, _Corners(guesses, coarse_px, bends.values), half, arm)
     bent = _doubted(bent, guesses, bends, half)
-    return replace(bent, dropped=(*outside, *straight.dropped, *bent.dropped))
+    kept = guesses.only(np.searchsorted(guesses.points, bent.points))
+    patches = cut_out(grey, bent.corners_px, kept.steps_px, half, arm)
+    lost = (*outside, *straight.dropped, *bent.dropped)
+    return replace(bent, dropped=lost, patches=patches)
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,13 +116,19 @@ def _moved(guesses: Guesses, found: Found) -> Guesses:
 
 
 def _doubted(found: Found, guesses: Guesses, bends: Bends, half: float) -> Found:
-    """Add to the corners' deviations how far a wrong curvature of their edges would pull them."""
+    """Add to the covariances how far a wrong curvature of their edges would pull the corners.
+
+    Each edge moves along its own normal; the corner is where both are.
+    """
     kept = np.searchsorted(guesses.points, found.points)
-    steps_px = np.stack([guesses.along_px, guesses.down_px], axis=1)[kept]
-    reach_px = np.minimum(half * np.linalg.norm(steps_px, axis=-1), MOST_HALF_PX)
+    steps_px = guesses.only(kept).steps_px
+    lengths_px = np.linalg.norm(steps_px, axis=1)
+    reach_px = np.minimum(half * lengths_px, MOST_HALF_PX)
     pulled_px = bends.doubts[kept] * reach_px**2 / 6
-    variance = found.sd_px**2 + (pulled_px**2).mean(axis=1)
-    return replace(found, sd_px=np.sqrt(variance))
+    normals = np.stack([-steps_px[:, 1], steps_px[:, 0]], axis=-1) / lengths_px[..., None]
+    moved = np.linalg.inv(normals) * pulled_px[:, None]
+    covariances_px2 = found.covariances_px2 + moved @ np.swapaxes(moved, 1, 2)
+    return replace(found, covariances_px2=covariances_px2)
 
 
 def _fitted(grey: GreyPixels, corners: _Corners, half: float, arm: float) -> Found:
@@ -139,7 +153,7 @@ def _try(
     uncertain = fit.sd_px > _WORST_SD_PX
     good = fit.is_saddle & ~too_far & ~uncertain
     lost = _reasons(corners, fit, moved_px, too_far, uncertain)
-    found = Found(near.points[good], fit.centres_px[good], fit.sd_px[good])
+    found = Found(near.points[good], fit.centres_px[good], fit.covariances_px2[good])
     return found, corners.only(~good), lost
 
 
@@ -161,12 +175,12 @@ def _reasons(
 
 def _joined(found: list[Found], lost: tuple[DroppedPoint, ...]) -> Found:
     if not found:
-        return Found(np.zeros(0, np.int64), np.zeros((0, 2)), np.zeros(0), lost)
+        return Found(np.zeros(0, np.int64), np.zeros((0, 2)), np.zeros((0, 2, 2)), lost)
     points = np.concatenate([one.points for one in found])
     order = np.argsort(points)
     corners_px = np.concatenate([one.corners_px for one in found])[order]
-    sd_px = np.concatenate([one.sd_px for one in found])[order]
-    return Found(points[order], corners_px, sd_px, lost)
+    covariances_px2 = np.concatenate([one.covariances_px2 for one in found])[order]
+    return Found(points[order], corners_px, covariances_px2, lost)
 
 
 def _inside(grey: GreyPixels, places_px: Array) -> BoolArray:

@@ -29,7 +29,7 @@ _SLOPE = math.sqrt(2 / math.pi)
 
 @njit(cache=True, nogil=True)
 def fit_crossings(
-    grey: GreyPixels,
+    greys: GreyPixels,
     guesses_px: Array,
     steps_px: Array,
     bends: Array,
@@ -40,8 +40,8 @@ def fit_crossings(
     """Return the unknowns (n, 9), J'J there (n, free, free), squared residuals, pixels used (n,).
 
     Args:
-        grey: 8-bit image, shape (height, width).
-        guesses_px: Where the crossings are about, shape (n, 2).
+        greys: 8-bit images, shape (1 or n, height, width): one for all, or one for each.
+        guesses_px: Where the crossings are about, shape (n, 2), in their own image.
         steps_px: The steps to the next ones, one in each column, shape (n, 2, 2).
         bends: Curvature of the edge along each step, shape (n, 2), 1 / px; positive where it bends
             from the step's direction toward (-y, x) of it, which is a turn from x to y.
@@ -53,6 +53,7 @@ def fit_crossings(
     unknowns, curvatures = np.zeros((n, UNKNOWNS)), np.zeros((n, free, free))
     squares, counts = np.zeros(n), np.zeros(n, np.int64)
     for i in range(n):
+        grey = greys[min(i, len(greys) - 1)]
         pixels = pixels_around(grey, guesses_px[i], steps_px[i], half, arm)
         counts[i] = len(pixels)
         if counts[i] > free:

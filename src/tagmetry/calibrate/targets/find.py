@@ -9,6 +9,7 @@ from tagmetry.calibrate.targets.chessboard import find_chessboard
 from tagmetry.calibrate.targets.circles import find_circles
 from tagmetry.calibrate.targets.found import DroppedPoint, Found, NotFound
 from tagmetry.calibrate.targets.grids import find_aprilgrid, find_grid
+from tagmetry.calibrate.targets.patches import Patches
 from tagmetry.calibrate.targets.quality import QualityLimits, ViewQuality, view_quality
 from tagmetry.calibrate.view import BoardView, RejectedView
 from tagmetry.detect.grey import SMALLEST_SIDE_PX, grey_8bit
@@ -29,11 +30,14 @@ class BoardFindings:
         result: The view, or why there is none.
         dropped: Points that were seen and not believed, each with the reason.
         quality: What the picture is like around the points, where enough were seen.
+        patches: The pixels around each corner of the view, to fit it again (`refitted`); None for
+            boards whose points are not crossings of edges.
     """
 
     result: BoardView | RejectedView
     dropped: tuple[DroppedPoint, ...] = ()
     quality: ViewQuality | None = None
+    patches: Patches | None = None
 
 
 def find_board(
@@ -81,7 +85,7 @@ def explain_board(
     if (reason := limits.refusal(quality)) is not None:
         rejected = RejectedView(source, reason, found.corners_px)
         return BoardFindings(rejected, found.dropped, quality)
-    return BoardFindings(view, found.dropped, quality)
+    return BoardFindings(view, found.dropped, quality, found.patches)
 
 
 def _found(grey: GreyPixels, board: Board, *, thorough: bool) -> Found | NotFound:
@@ -115,9 +119,8 @@ def _too_little(found: Found) -> str | None:
 def _view(grey: GreyPixels, board: Board, found: Found, source: str) -> BoardView:
     height_px, width_px = grey.shape
     p_board = board.corners_m[found.points]
-    return BoardView(
-        width_px, height_px, found.points, p_board, found.corners_px, found.sd_px, source
-    )
+    places = (found.corners_px, found.covariances_px2)
+    return BoardView(width_px, height_px, found.points, p_board, *places, source)
 
 
 def _is_tiny(image: AnyPixels) -> bool:

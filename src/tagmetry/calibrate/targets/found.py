@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from tagmetry.calibrate.targets.patches import Patches
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, IntArray
 
@@ -30,14 +31,16 @@ class Found:
     Attributes:
         points: Which of the board's points they are, shape (n,), rising.
         corners_px: Where they are, shape (n, 2).
-        sd_px: Standard deviation of each along an axis, shape (n,).
+        covariances_px2: Of each place, shape (n, 2, 2).
         dropped: Points that were not believed.
+        patches: The pixels around each, where they are crossings of edges.
     """
 
     points: IntArray
     corners_px: Array
-    sd_px: Array
+    covariances_px2: Array
     dropped: tuple[DroppedPoint, ...] = ()
+    patches: Patches | None = None
 
 
 @dataclass(frozen=True, eq=False)

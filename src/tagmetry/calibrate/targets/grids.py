@@ -10,6 +10,8 @@ import numpy as np
 from tagmetry.calibrate.targets.corners import Guesses, refined
 from tagmetry.calibrate.targets.found import DroppedPoint, Found, NotFound
 from tagmetry.calibrate.targets.seen_markers import SeenMarkers, see_markers
+from tagmetry.calibrate.view import mean_sd_px
+from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels, IntArray
 from tagmetry.markers import AprilGrid, GridBoard, family
 
@@ -66,8 +68,8 @@ def _points(seen: SeenMarkers) -> IntArray:
 
 def _corners(grey: GreyPixels, seen: SeenMarkers) -> Found:
     points, places_px = _points(seen), seen.corners_px.reshape(-1, 2)
-    variances = np.diagonal(seen.covariances_px2, axis1=1, axis2=2)
-    sd_px = np.sqrt(variances.reshape(-1, 2).mean(axis=1))
+    covariances_px2 = _own_blocks(seen.covariances_px2)
+    sd_px = mean_sd_px(covariances_px2)
     limit_px = np.array(grey.shape[::-1]) - 1 - _EDGE_PX
     at_edge = ((places_px < _EDGE_PX) | (places_px > limit_px)).any(axis=1)
     reasons = (
@@ -82,4 +84,10 @@ def _corners(grey: GreyPixels, seen: SeenMarkers) -> Found:
         )
         for i in np.flatnonzero(bad)
     )
-    return Found(points[~bad], places_px[~bad], sd_px[~bad], dropped)
+    return Found(points[~bad], places_px[~bad], covariances_px2[~bad], dropped)
+
+
+def _own_blocks(covariances_px2: Array) -> Array:
+    """Return each corner's own covariance (4 n, 2, 2) out of those of whole markers (n, 8, 8)."""
+    blocks = covariances_px2.reshape(-1, 4, 2, 4, 2)
+    return np.concatenate([blocks[:, k, :, k] for k in range(4)], axis=1).reshape(-1, 2, 2)

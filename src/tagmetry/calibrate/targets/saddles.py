@@ -26,6 +26,7 @@ from tagmetry.calibrate.targets.crossing import (
     UNKNOWNS_IN_EVEN_LIGHT,
     fit_crossings,
 )
+from tagmetry.calibrate.view import mean_sd_px, round_covariances
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
@@ -33,6 +34,7 @@ _FLOOR_PX = 0.0002  # what the model leaves out, on noiseless rendered boards
 _SHARP_SD_PX = 0.02  # with no blur at all, as a pixel's square is no Gaussian
 _PIXEL_PX, _SOFT_PX = 0.29, 0.42  # blur of a pixel alone, and from which on it looks Gaussian
 _WORST_CONDITION = 1e14
+_CHANCE = 3.0  # standard deviations of the logarithm of a variance
 _QUANTUM = 1 / np.sqrt(12)  # standard deviation of rounding to whole grey values
 
 
@@ -42,7 +44,7 @@ class Saddles:
 
     Attributes:
         centres_px: Shape (n, 2).
-        sd_px: Standard deviation along an axis, shape (n,).
+        covariances_px2: Of the centres, shape (n, 2, 2).
         blur_px: Standard deviation of the edges' blur, shape (n,).
         contrast: White minus black, grey values, shape (n,).
         noise: Standard deviation of what the model leaves, grey values, shape (n,).
@@ -51,11 +53,16 @@ class Saddles:
     """
 
     centres_px: Array
-    sd_px: Array
+    covariances_px2: Array
     blur_px: Array
     contrast: Array
     noise: Array
     is_saddle: BoolArray
+
+    @property
+    def sd_px(self) -> Array:
+        """Standard deviation of the centres along an axis, shape (n,)."""
+        return mean_sd_px(self.covariances_px2)
 
 
 def fit_saddles(
@@ -70,7 +77,7 @@ def fit_saddles(
     """Fit corners between squares.
 
     Args:
-        grey: 8-bit image, shape (height, width).
+        grey: 8-bit image, shape (height, width), or one for each corner, (n, height, width).
         guesses_px: Where the corners are about, shape (n, 2).
         along_px: From each to the next corner in its row, shape (n, 2).
         down_px: From each to the next corner in its column, shape (n, 2).
@@ -85,8 +92,8 @@ def fit_saddles(
     bends = np.zeros((len(guesses_px), 2)) if bends is None else np.ascontiguousarray(bends)
     steps_px = np.ascontiguousarray(np.stack([along_px, down_px], axis=-1), dtype=np.float64)
     guesses_px = np.ascontiguousarray(guesses_px, dtype=np.float64)
-    grey = np.ascontiguousarray(grey)
-    fit = _Fit(*fit_crossings(grey, guesses_px, steps_px, bends, half, arm, free))
+    greys = np.ascontiguousarray(grey if grey.ndim == 3 else grey[None])
+    fit = _Fit(*fit_crossings(greys, guesses_px, steps_px, bends, half, arm, free))
     return _judged(fit, guesses_px, steps_px)
 
 
@@ -105,7 +112,7 @@ def _judged(fit: _Fit, guesses_px: Array, steps_px: Array) -> Saddles:
     free = fit.curvatures.shape[1]
     freedom = np.maximum(fit.counts - free, 1.0)
     noise = np.sqrt((fit.squares + _QUANTUM**2) / freedom)
-    variance, solvable = _place_variances(fit.curvatures)
+    by_unit_noise, solvable = _place_covariances(fit.curvatures)
     blur_px, contrast = np.exp(fit.unknowns[:, BLUR]), 2 * np.abs(fit.unknowns[:, HALF_CONTRAST])
     shortest_px = np.linalg.norm(steps_px, axis=1).min(axis=1)
     is_saddle = (
@@ -115,14 +122,27 @@ def _judged(fit: _Fit, guesses_px: Array, steps_px: Array) -> Saddles:
         & (blur_px < 0.4 * shortest_px)
     )
     sharp = np.clip((_SOFT_PX - blur_px) / (_SOFT_PX - _PIXEL_PX), 0.0, 1.0)
-    sd_px = np.hypot(np.sqrt(variance) * noise, _FLOOR_PX + _SHARP_SD_PX * sharp)
+    floor_px2 = round_covariances(_FLOOR_PX + _SHARP_SD_PX * sharp)
+    variances = _common_where_alike(noise**2, freedom)
+    covariances_px2 = by_unit_noise * variances[:, None, None] + floor_px2
     centres_px = guesses_px + fit.unknowns[:, :2]
-    return Saddles(centres_px, sd_px, blur_px, contrast, noise, np.asarray(is_saddle))
+    return Saddles(centres_px, covariances_px2, blur_px, contrast, noise, np.asarray(is_saddle))
 
 
-def _place_variances(curvatures: Array) -> tuple[Array, BoolArray]:
-    """Return a corner's variance along an axis by unit noise, and whether there is one."""
+def _common_where_alike(variances: Array, freedom: Array) -> Array:
+    """Return the noise's variances, the common one where a corner's is within chance of it.
+
+    Some tens of pixels tell a variance to a quarter only. Corners weighed by such guesses are worse
+    than corners weighed alike, and worse than they say.
+    """
+    common = np.median(variances)
+    far = np.abs(np.log(variances / common)) > _CHANCE * np.sqrt(2 / freedom)
+    return np.where(far, variances, common)
+
+
+def _place_covariances(curvatures: Array) -> tuple[Array, BoolArray]:
+    """Return corners' covariances (n, 2, 2) by unit noise, and whether there is one."""
     solvable = np.linalg.cond(curvatures) < _WORST_CONDITION
     safe = np.where(solvable[:, None, None], curvatures, np.eye(curvatures.shape[1]))
-    variances = np.einsum("nii->ni", np.linalg.inv(safe))[:, :2].mean(axis=1)
-    return np.maximum(variances, 0.0), np.asarray(solvable)
+    inverse = np.linalg.inv(safe)[:, :2, :2]
+    return (inverse + np.swapaxes(inverse, 1, 2)) / 2, np.asarray(solvable)

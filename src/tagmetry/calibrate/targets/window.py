@@ -31,9 +31,8 @@ def pixels_around(
     area = ax * by - ay * bx
     if not abs(area) > _LEAST_AREA_PX2:
         return np.zeros((0, 3))
-    most_u, most_v = _limit(half, math.hypot(ax, ay)), _limit(half, math.hypot(bx, by))
-    reach_x = math.ceil(abs(ax) * most_u + abs(bx) * most_v)
-    reach_y = math.ceil(abs(ay) * most_u + abs(by) * most_v)
+    most_u, most_v = _limits(steps_px, half)
+    reach_x, reach_y = reach_px(steps_px, half)
     column, row = round(guess_px[0]), round(guess_px[1])
     rows = range(max(0, row - reach_y), min(grey.shape[0], row + reach_y + 1))
     columns = range(max(0, column - reach_x), min(grey.shape[1], column + reach_x + 1))
@@ -46,6 +45,22 @@ def pixels_around(
                 pixels[count, 0], pixels[count, 1], pixels[count, 2] = x, y, grey[r, c]
                 count += 1
     return pixels[:count]
+
+
+@njit(cache=True, nogil=True)
+def reach_px(steps_px: Array, half: float) -> tuple[int, int]:
+    """Return how many columns and rows a window reaches from its middle."""
+    most_u, most_v = _limits(steps_px, half)
+    (ax, bx), (ay, by) = steps_px
+    columns = math.ceil(abs(ax) * most_u + abs(bx) * most_v)
+    return columns, math.ceil(abs(ay) * most_u + abs(by) * most_v)
+
+
+@njit(cache=True, nogil=True)
+def _limits(steps_px: Array, half: float) -> tuple[float, float]:
+    """Return half the sides as shares of the two steps."""
+    (ax, bx), (ay, by) = steps_px
+    return _limit(half, math.hypot(ax, ay)), _limit(half, math.hypot(bx, by))
 
 
 @njit(cache=True, nogil=True)
