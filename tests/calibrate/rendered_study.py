@@ -23,8 +23,14 @@ from quick_pictures import QuickCamera
 from scipy import stats
 from seen_boards import COLUMNS, ROWS, SQUARE_M, Truth, seen
 
-from tagmetry.calibrate import BoardFindings, BoardView, LensName, calibrate, explain_board
-from tagmetry.calibrate.second_look import look_again
+from tagmetry.calibrate import (
+    BoardFindings,
+    BoardView,
+    LensName,
+    calibrate,
+    explain_board,
+    look_again,
+)
 from tagmetry.camera import BrownLens, Camera, FisheyeLens
 from tagmetry.geometry import Array, RigidTransform, mahalanobis_squared
 from tagmetry.geometry.arrays import GreyPixels
@@ -157,7 +163,7 @@ def _found(shown: Iterator[Picture]) -> Iterator[tuple[Picture, BoardFindings]]:
 def _ours(lens: LensName, looked: list[BoardFindings]) -> tuple[tuple[BoardView, ...], Camera]:
     """Return the views after the second look, and the camera."""
     first = calibrate([findings.result for findings in looked], lens)
-    views = look_again(first, [findings.patches for findings in looked], BOARD)
+    views = look_again(first, looked, BOARD)
     return views, calibrate(views, lens).camera
 
 

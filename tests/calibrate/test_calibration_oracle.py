@@ -121,7 +121,7 @@ def test_the_principal_point_is_not_as_sure_as_the_formula_says(
 def test_left_out_views_are_shown_as_well_as_by_opencv(real_views: list[BoardView]) -> None:
     flat = fit_flat(gather(real_views), Wanted("brown5"), robust=False)
     assert hold_out_px(flat) == pytest.approx(0.2012, abs=5e-4)
-    assert quick_hold_out_px(flat, 20) == pytest.approx(hold_out_px(flat), rel=2e-3)
+    assert quick_hold_out_px(flat, 20, 99) == pytest.approx(hold_out_px(flat), rel=2e-3)
 
 
 def adaptive_view(path: Path, share: float, *, up: bool = False) -> BoardView:
@@ -144,7 +144,7 @@ def test_releasing_the_shape_cuts_the_hold_out_error(adaptive_views: list[BoardV
     free = release_shape(flat, gather(adaptive_views), robust=True)
     assert hold_out_px(flat) <= 0.183
     assert hold_out_px(free) <= 0.125
-    assert quick_hold_out_px(free, 20) == pytest.approx(hold_out_px(free), rel=1e-3)
+    assert quick_hold_out_px(free, 20, 99) == pytest.approx(hold_out_px(free), rel=1e-3)
 
 
 @pytest.mark.parametrize("up", [False, True], ids=["floor", "ceil"])

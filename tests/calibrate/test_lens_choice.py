@@ -5,6 +5,7 @@ import pytest
 from seen_boards import USUAL, seen
 
 from tagmetry.calibrate import calibrate, select
+from tagmetry.calibrate.hold_out import left_out_groups
 
 
 def test_a_lens_whose_numbers_stay_open_gives_way_to_the_next(
@@ -24,6 +25,15 @@ def test_a_lens_whose_numbers_stay_open_gives_way_to_the_next(
     assert second.chosen != first.chosen
     (row,) = [one for one in second.rows if one.name == first.chosen]
     assert row.verdict == "the views leave some of its numbers open"
+
+
+@pytest.mark.parametrize(("views", "rounds", "enough", "groups"), [(12, 8, 40, 8), (200, 8, 40, 2)])
+def test_no_more_views_are_left_out_than_tell(
+    views: int, rounds: int, enough: int, groups: int
+) -> None:
+    left_out = left_out_groups(views, rounds, enough)
+    assert len(left_out) == groups
+    assert len(np.unique(np.concatenate(left_out))) == min(views, groups * views // rounds)
 
 
 @pytest.mark.parametrize(("count", "most"), [(7, 9), (8, 18)])

@@ -3,12 +3,15 @@
 import json
 import os
 import re
+import signal
+import subprocess
 from functools import cache
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
+from cli_command import arguments_of
 
 from tagmetry.camera import Camera, Image
 from tagmetry.cli.main import run
@@ -154,6 +157,47 @@ def test_live_says_where_to_hold_the_board_and_ends(video, tmp_path, capsys) -> 
     assert len(taken) >= 8
     assert len({line for line in said if line.startswith("-> ")}) > 1
     assert load_camera(out).focal_px[0] == pytest.approx(520, abs=3)
+
+
+def long_video(path: Path, places: int) -> Path:
+    """Write a video of a board that is held at a few places, much longer than anyone looks."""
+    with open_overlay(path) as writer:
+        for i in range(600):
+            pixels = cv2.cvtColor(rendered()[i // 3 % places], cv2.COLOR_GRAY2BGR)
+            writer.write(Image(pixels, i / 15, "capture", sequence=i, source="twin"))
+    return path
+
+
+def interrupted_live(video: Path, out: Path, line: bytes) -> tuple[int, bytes, bytes]:
+    """Send Ctrl-C after a line; return exit code, standard output and error."""
+    asked = ["calibrate", str(video), "--board", ASKED, "--model", "none", "--live"]
+    asked += ["--uncertainty", "0.0001px", "--out", str(out)]
+    process = subprocess.Popen(arguments_of(*asked), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    said = [process.stdout.readline()]
+    while said[-1] and not said[-1].startswith(line):
+        said.append(process.stdout.readline())
+    process.send_signal(signal.SIGINT)
+    rest, err = process.communicate(timeout=120)
+    return process.returncode, b"".join(said) + rest, err
+
+
+def test_ctrl_c_ends_a_live_session_with_what_was_taken(tmp_path: Path) -> None:
+    video = long_video(tmp_path / "long.mp4", 11)
+    code, said, err = interrupted_live(video, tmp_path / "c.yaml", b"view 5 taken")
+    taken = len(re.findall(rb"^view \d+ taken", said, re.MULTILINE))
+    assert code == 0
+    assert err.startswith(f"ended by hand after {taken} views\n".encode())
+    assert taken < 11
+    assert load_camera(tmp_path / "c.yaml").focal_px[0] == pytest.approx(520, abs=5)
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["c.yaml", "long.mp4"]
+
+
+def test_ctrl_c_before_there_are_enough_views_writes_nothing(tmp_path: Path) -> None:
+    video = long_video(tmp_path / "long.mp4", 1)
+    code, said, err = interrupted_live(video, tmp_path / "c.yaml", b"view 1 taken")
+    assert b"view 2 taken" not in said
+    assert (code, err) == (130, b"tagmetry: interrupted\n")
+    assert [one.name for one in tmp_path.iterdir()] == ["long.mp4"]
 
 
 def test_live_without_the_board_is_refused_with_its_reason(video, tmp_path, capsys) -> None:

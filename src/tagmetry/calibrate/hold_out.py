@@ -11,34 +11,36 @@ from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import IntArray
 
 _MOST_ROUNDS = 20
+_ALL = 1_000_000_000  # views
 _MOST_STEPS = 6  # from the solution of all views; more only go along valleys
 
 
-def hold_out_px(fit: Fit, most_rounds: int = _MOST_ROUNDS) -> float:
-    """Return the root of the mean squared 2-D error over left-out views, weighted by corners."""
-    return pooled_px(hold_out_squares_px2(fit, most_rounds), fit)
+def hold_out_px(fit: Fit, most_rounds: int = _MOST_ROUNDS, enough: int = _ALL) -> float:
+    """Return the root of the mean squared 2-D error over left-out views, weighted by corners.
+
+    Each view is left out once, alone or, with more views than rounds, in interleaved groups, until
+    enough have been. The camera (and the board's shape) is solved from the others; then only the
+    view's own pose is fitted, to all of its corners. Infinite where the others lead to no camera
+    that shows it.
+    """
+    squares = np.full(len(fit.seen), np.nan)
+    for group in left_out_groups(len(fit.seen), most_rounds, enough):
+        squares[group] = _squares_without(fit, group)
+    return pooled_px(squares, fit)
+
+
+def left_out_groups(views: int, most_rounds: int, enough: int) -> list[IntArray]:
+    """Return groups of views to leave out, no more groups than it takes for enough views."""
+    rounds = min(views, most_rounds)
+    tried = min(rounds, -(-enough * rounds // views))
+    return [np.arange(first, views, rounds) for first in range(tried)]
 
 
 def pooled_px(squares_px2: Array, fit: Fit) -> float:
-    """Return the root of the mean over all corners of views' mean squared errors (n,)."""
-    corners = fit.seen.used.sum(axis=1)
-    return float(np.sqrt((squares_px2 * corners).sum() / corners.sum()))
-
-
-def hold_out_squares_px2(fit: Fit, most_rounds: int = _MOST_ROUNDS) -> Array:
-    """Return the mean squared 2-D error of each left-out view, shape (n,), px^2.
-
-    Each view is left out once, alone or, with more views than rounds, in interleaved groups.
-    The camera (and the board's shape) is solved from the others; then only the view's own pose is
-    fitted, to all of its corners. Infinite where the others lead to no camera that shows it.
-    """
-    n = len(fit.seen)
-    rounds = min(n, most_rounds)
-    squares = np.full(n, np.inf)
-    for first in range(rounds):
-        group = np.arange(first, n, rounds)
-        squares[group] = _squares_without(fit, group)
-    return squares
+    """Return the root of the mean over corners of views' squares (n,), NaN where not asked."""
+    asked = ~np.isnan(squares_px2)
+    corners = fit.seen.used.sum(axis=1)[asked]
+    return float(np.sqrt((squares_px2[asked] * corners).sum() / corners.sum()))
 
 
 def _squares_without(fit: Fit, group: IntArray) -> Array:

@@ -16,22 +16,19 @@ import numpy as np
 
 from tagmetry.calibrate.bundle import Bundle, Linear, linearise
 from tagmetry.calibrate.fit import Fit
-from tagmetry.calibrate.hold_out import pooled_px, squares_by_own_pose_px2
+from tagmetry.calibrate.hold_out import left_out_groups, pooled_px, squares_by_own_pose_px2
 from tagmetry.calibrate.normal import eliminate_poses, normal_equations
 from tagmetry.calibrate.solve import shape_prior
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import IntArray
 
 
-def quick_hold_out_px(fit: Fit, most_rounds: int) -> float:
+def quick_hold_out_px(fit: Fit, most_rounds: int, enough: int) -> float:
     """Return about what `hold_out_px` returns; infinite where the others decide nothing."""
     linear = linearise(fit.bundle, fit.seen, fit.freedom)
     information, gradient = information_of_all(fit, linear)
-    n = len(fit.seen)
-    rounds = min(n, most_rounds)
-    squares = np.full(n, np.inf)
-    for first in range(rounds):
-        group = np.arange(first, n, rounds)
+    squares = np.full(len(fit.seen), np.nan)
+    for group in left_out_groups(len(fit.seen), most_rounds, enough):
         own, own_gradient = _of_views(fit, linear, group)
         moved = _moved(fit, information - own, gradient - own_gradient)
         squares[group] = squares_by_own_pose_px2(moved, fit, group)

@@ -5,29 +5,44 @@ the board bends in every view, the corners are fitted to the pixels again with e
 and the camera is solved again.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable
+from typing import Protocol
 
 from tagmetry.calibrate.result import Calibration
 from tagmetry.calibrate.targets.edges import predicted_edges
 from tagmetry.calibrate.targets.patches import Patches
 from tagmetry.calibrate.targets.refit import refitted
-from tagmetry.calibrate.view import BoardView
+from tagmetry.calibrate.view import BoardView, RejectedView
 from tagmetry.markers import AprilGrid, Board, CharucoBoard, Chessboard
 
 
+class Looked(Protocol):
+    """What looking for a board in a picture gave, as `explain_board` does."""
+
+    @property
+    def result(self) -> BoardView | RejectedView:
+        """The view, or why there is none."""
+
+    @property
+    def patches(self) -> Patches | None:
+        """The pixels around the view's corners, where these are crossings of edges."""
+
+
 def look_again(
-    calibration: Calibration, patches: Sequence[Patches | None], board: Board
+    calibration: Calibration, looked: Iterable[Looked], board: Board
 ) -> tuple[BoardView, ...]:
     """Return the views of a calibration with their corners fitted as its camera shows them.
 
     Args:
         calibration: A first one.
-        patches: The pixels around the corners of each of its views (`BoardFindings.patches`); a
-            view without any stays as it is.
+        looked: What its pictures gave. A view that is not among them or has no patches stays as
+            it is.
         board: What was looked for.
     """
+    patches = {id(one.result): one.patches for one in looked}
     return tuple(
-        _seen_again(calibration, number, around, board) for number, around in enumerate(patches)
+        _seen_again(calibration, number, patches.get(id(view)), board)
+        for number, view in enumerate(calibration.views)
     )
 
 

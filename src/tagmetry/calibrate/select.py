@@ -28,6 +28,7 @@ from tagmetry.errors import InputError
 _GENERAL: tuple[LensName, ...] = ("brown5", "fisheye")
 _FAR_SLACK, _HOLD_OUT_SLACK = 1.15, 1.01
 _ROUNDS = 8  # of leaving views out, for each of nine models
+_ENOUGH = 40  # left-out views tell which models are worse; each costs a solution
 _MOST_STEPS = 30
 _MONOTONIC_SLACK = 0.005
 _CREDIBLE = 1.5  # times the error on fitted corners: a quick hold-out error beyond is looked into
@@ -149,8 +150,10 @@ def _hold_out_px(fit: Fit) -> float:
 
     A lens with more coefficients than the views support goes far along its valleys in one step.
     """
-    found_px = quick_hold_out_px(fit, _ROUNDS)
-    return found_px if found_px < _CREDIBLE * _rms_px(fit) else hold_out_px(fit, _ROUNDS)
+    found_px = quick_hold_out_px(fit, _ROUNDS, _ENOUGH)
+    if found_px < _CREDIBLE * _rms_px(fit):
+        return found_px
+    return hold_out_px(fit, _ROUNDS, _ENOUGH)
 
 
 def _rms_px(fit: Fit) -> float:

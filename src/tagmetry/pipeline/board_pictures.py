@@ -76,9 +76,8 @@ def looked_again(
         board: What was looked for.
     """
     of_view = {id(one.result): one for one in seen}
-    used = [of_view[id(view)] for view in calibration.views]
-    views = look_again(calibration, [one.patches for one in used], board)
-    return tuple(replace(one, result=view) for one, view in zip(used, views, strict=True))
+    pairs = zip(calibration.views, look_again(calibration, seen, board), strict=True)
+    return tuple(replace(of_view[id(first)], result=view) for first, view in pairs)
 
 
 def thumbnail(pixels: AnyPixels) -> GreyPixels:

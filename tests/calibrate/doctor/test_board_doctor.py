@@ -55,8 +55,16 @@ def test_nothing_is_said_of_the_right_board(text: str) -> None:
     assert told(text, text) == ()
 
 
-def test_a_chessboard_may_be_asked_for_turned() -> None:
-    assert told(CHESS, "chessboard:6x9:25mm") == ()
+def test_a_chessboard_asked_for_turned_is_named_and_harmless() -> None:
+    (advice,) = told(CHESS, "chessboard:6x9:25mm")
+    assert advice.severity == "hint"
+    assert advice.title == "columns and rows swapped"
+    assert "the camera comes out the same" in str(advice)
+    assert board_text(advice.board) == CHESS
+
+
+def test_one_picture_of_a_board_on_its_side_says_nothing() -> None:
+    assert diagnose_board(pictures(CHESS)[:1], parse_board("chessboard:6x9:25mm")) == ()
 
 
 @pytest.mark.parametrize(

@@ -2,25 +2,30 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from tagmetry.calibrate.doctor.advice import BoardAdvice
 from tagmetry.calibrate.doctor.lattice import Counts, corners_as, grown, largest_lattice, voted
 from tagmetry.calibrate.doctor.marked import seen_instead
+from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import Chessboard
 
-_MOST = 0.5  # share of the pictures
+_MOST, _NEARLY_ALL = 0.5, 0.8  # shares of the pictures
+_FEW = 2
 
 
 def check_chessboard(greys: Sequence[GreyPixels], board: Chessboard) -> list[BoardAdvice]:
     """Return what is odd about a chessboard; nothing where most pictures show it as asked for."""
     asked = (board.corner_columns, board.corner_rows)
-    grids = [(grey, corners_as(grey, asked)) for grey in greys]
-    sizes = [grown(grey, grid) for grey, grid in grids if grid is not None]
-    if len(sizes) >= _MOST * len(greys):
-        size, count = voted(sizes)
-        larger = sorted(size) != sorted(asked) and count > _MOST * len(sizes)
-        return [_part(board, size, count)] if larger else []
-    return _other_counts(greys, board, len(sizes))
+    pairs = [(grey, corners_as(grey, asked)) for grey in greys]
+    seen = [(grey, grid) for grey, grid in pairs if grid is not None]
+    if len(seen) >= _MOST * len(greys):
+        size, count = voted([grown(grey, grid) for grey, grid in seen])
+        if sorted(size) != sorted(asked) and count > _MOST * len(seen):
+            return [_part(board, size, count)]
+        return _swapped(board, [grid for _, grid in seen])
+    return _other_counts(greys, board, len(seen))
 
 
 def _other_counts(greys: Sequence[GreyPixels], board: Chessboard, found: int) -> list[BoardAdvice]:
@@ -64,6 +69,28 @@ def _part(board: Chessboard, size: Counts, count: int) -> BoardAdvice:
         "ask for the whole board",
         _with(board, _same_way(size, asked)),
     )
+
+
+def _swapped(board: Chessboard, grids: Sequence[Array]) -> list[BoardAdvice]:
+    """Say that boards lie on their side in nearly all pictures; they are none the worse for it."""
+    asked = (board.corner_columns, board.corner_rows)
+    lying = sum(map(_lies, grids))
+    if asked[0] == asked[1] or lying < max(_FEW, _NEARLY_ALL * len(grids)):
+        return []
+    found = f"{_text(asked[::-1])} in {lying} of {len(grids)} pictures"
+    harmless = (
+        "it is the same board on its side, or the camera was: the camera comes out the same, and "
+        "the board's x and y are as they were asked for"
+    )
+    instead = _with(board, asked[::-1])
+    expected = f"{_text(asked)} inner corners"
+    return [BoardAdvice("hint", "columns and rows swapped", expected, found, harmless, instead)]
+
+
+def _lies(grid_px: Array) -> bool:
+    """Return whether rows run rather down the picture than along it."""
+    across, down = np.abs(np.diff(grid_px, axis=1).mean(axis=(0, 1)))
+    return bool(down > across)
 
 
 def _covered(board: Chessboard, counts: Sequence[Counts], votes: int) -> BoardAdvice:
