@@ -11,12 +11,15 @@ from tagmetry.geometry import RigidTransform
 from tagmetry.twin.camera import (
     BeforeCamera,
     LogFocus,
+    Setting,
     TwinCamera,
     facing_camera,
     markers_before_camera,
     webcam,
 )
+from tagmetry.twin.camera.development import Taking, image_pixels
 from tagmetry.twin.optics.sensor import Sensor
+from tagmetry.twin.rendering.box import Box
 from tagmetry.twin.scenes import Along, Scene, Steady, Still
 
 NOISY = replace(
@@ -45,6 +48,18 @@ def test_without_noise_they_are_the_same(zoom: float, focus: float) -> None:
     whole, quick = both(scene, device, focus, zoom)
     assert np.ptp(whole) > 4000
     np.testing.assert_allclose(quick / 65535, whole / 65535, rtol=0, atol=5e-5)
+
+
+@pytest.mark.parametrize("zoom", [100, 137, 333])
+def test_a_window_is_what_the_whole_image_shows_there(zoom: float) -> None:
+    """Right through an edge, where softened pixels have neighbours outside."""
+    device = replace(PLAIN, blur_px=1.5, vignetting=webcam().vignetting)
+    path = Still(RigidTransform.identity())
+    taking = Taking(device, Setting(zoom, focus=2.0), white_square(0.5, 0.02), path, 0.0)
+    rng = np.random.default_rng(0)
+    window = Box(137, 74, 177, 113)
+    whole, part = image_pixels(taking, rng), image_pixels(taking, rng, window)
+    np.testing.assert_allclose(part / 65535, whole[window.pixels] / 65535, rtol=0, atol=5e-5)
 
 
 def test_a_thing_that_fills_the_image_is_taken_as_a_whole() -> None:

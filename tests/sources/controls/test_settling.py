@@ -149,6 +149,47 @@ def still(value: int, sequence: int, shape: tuple[int, ...] = (48, 48)) -> Image
     return Image(np.full(shape, value, np.uint8), sequence=sequence)
 
 
+def greys_until_fresh(greys: list[int], settling: Settling) -> int:
+    """The grey of the first image that is fresh."""
+    first = settling._sequence + 1
+    return next(g for k, g in enumerate(greys) if not settling.is_stale(still(g, first + k)))
+
+
+def test_a_motor_that_slows_down_is_not_still() -> None:
+    """A step of 10 greys is 1 % of one of 100, squared, and a hundred times what is usual."""
+    settling = Settling(BOUND)
+    assert greys_until_fresh([100], settling) == 100
+    settling.expect("focus")
+    assert greys_until_fresh([100, 200, 210, 213, 214, 99], settling) == 214
+
+
+def test_with_more_noise_than_before_two_steps_alike_are_rest() -> None:
+    rng = np.random.default_rng(2)
+    settling = Settling(BOUND)
+
+    def noisy(mean: float, deviation: float, sequence: int) -> Image:
+        pixels = np.clip(rng.normal(mean, deviation, (240, 240)), 0, 255)
+        return Image(pixels.astype(np.uint8), sequence=sequence)
+
+    assert not any(settling.is_stale(noisy(60, 1, k)) for k in range(4))
+    settling.expect("gain")
+    stale = [
+        settling.is_stale(noisy(60, 1, 4)),
+        *(settling.is_stale(noisy(180, 8, k)) for k in (5, 6, 7)),
+    ]
+    assert stale == [True, True, True, False]
+
+
+def test_a_second_command_does_not_make_the_first_one_forgotten() -> None:
+    settling = Settling(BOUND)
+    settling.is_stale(still(9, 0))
+    settling.expect("zoom")
+    assert settling.is_stale(still(9, 1))
+    settling.expect("focus", is_visible=False)
+    with pytest.raises(ControlStuckError, match="focus and zoom: no image showed the change"):
+        greys_until_fresh([9] * 20, settling)
+
+
 def test_images_that_were_missed_count() -> None:
     settling = Settling(BOUND)
     settling.is_stale(still(9, 0))
