@@ -9,7 +9,7 @@ from cli_command import usage_of
 from tagmetry.cli.main import run
 
 COMMANDS = [
-    "", "detect", "info", "demo", "camera", "camera show", "camera convert",
+    "", "detect", "info", "plan", "demo", "camera", "camera show", "camera convert",
     "print", "print marker", "print sheet", "print board", "print board grid",
     "print board aprilgrid", "print board chessboard", "print board charuco",
     "twin", "twin render", "twin list",

@@ -22,6 +22,7 @@ from tagmetry.cli.info import info
 from tagmetry.cli.kernels import ensure_cache_folder
 from tagmetry.cli.lab import app as lab_app
 from tagmetry.cli.locate import locate
+from tagmetry.cli.plan import plan
 from tagmetry.cli.print import app as print_app
 from tagmetry.cli.twin import app as twin_app
 from tagmetry.cli.warmup import warmup
@@ -36,6 +37,7 @@ app = typer.Typer(
 app.command()(detect)
 app.command()(calibrate)
 app.command()(locate)
+app.command()(plan)
 app.add_typer(arena_app, name="arena")
 app.add_typer(print_app, name="print")
 app.add_typer(camera_app, name="camera")

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.markers import MarkerFamily, family, marker_corners_m
 
+_MIDDLE_GREY = 115.0
 _ROUNDING_GREY = 1 / np.sqrt(12)
 
 
@@ -42,6 +44,14 @@ class Imaging:
                 f"{self.white_grey}"
             )
 
+    @classmethod
+    def of_contrast(
+        cls, contrast_grey: float, noise_grey: float, blur_px: float, exposure_s: float
+    ) -> Self:
+        """Return a picture whose paper is lighter than its ink by so much, about a middle grey."""
+        black_grey, white_grey = (_MIDDLE_GREY + k * contrast_grey / 2 for k in (-1, 1))
+        return cls(noise_grey, black_grey, white_grey, blur_px, exposure_s)
+
     @property
     def all_noise_grey(self) -> float:
         """The noise with that of rounding to whole grey values."""
@@ -64,7 +74,7 @@ class Setup:
         tilt_deg: Between its normal and the line to the camera.
         direction_deg: To which side of the picture its face is turned: 0 right, 90 down.
         pixel: Where its centre is seen; None for the middle of the image.
-        family: Name of its family.
+        family: Its family, or the name of one.
         speed_m_s: How fast it moves, along the image's rows.
         size_sd_m: Standard deviation of its side, as it was measured on paper.
         imaging: What the picture is like.
@@ -76,7 +86,7 @@ class Setup:
     tilt_deg: float = 30.0
     direction_deg: float = 0.0
     pixel: tuple[float, float] | None = None
-    family: str = "tag36h11"
+    family: str | MarkerFamily = "tag36h11"
     speed_m_s: float = 0.0
     size_sd_m: float = 5e-5
     imaging: Imaging = field(default_factory=Imaging)
@@ -134,7 +144,7 @@ class Setup:
     @property
     def marker_family(self) -> MarkerFamily:
         """The marker's family."""
-        return family(self.family)
+        return family(self.family) if isinstance(self.family, str) else self.family
 
     @property
     def printed(self) -> Print:
