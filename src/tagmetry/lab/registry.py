@@ -13,6 +13,7 @@ _HOMES = {
     "seed002-zones": "seed002_zones",
     "seed003-calibration": "seed003_calibration",
     "seed003-pose": "seed003_pose",
+    "detector-limits": "detector_limits",
 }
 
 

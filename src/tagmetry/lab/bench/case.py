@@ -37,6 +37,8 @@ class Seen:
         blur_px: Standard deviation of the point spread, besides the pixel's own square.
         exponent: Of the response.
         noise: Standard deviation of the grey values, rounding included.
+        motion_px: How far they move while the shutter is open, right and down.
+        grey_per_electron: Variance that light itself has, by its grey value.
     """
 
     camera: Camera
@@ -46,10 +48,21 @@ class Seen:
     blur_px: float
     exponent: float
     noise: float
+    motion_px: tuple[float, float] = (0.0, 0.0)
+    grey_per_electron: float = 0.0
 
     def printed(self, picture: np.ndarray, margin_cells: int) -> Print:
         """Return a marker's picture as it is seen."""
-        return Print(picture, margin_cells, self.black, self.white, self.blur_px, self.exponent)
+        return Print(
+            picture,
+            margin_cells,
+            self.black,
+            self.white,
+            self.blur_px,
+            self.exponent,
+            self.motion_px,
+            self.grey_per_electron,
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,23 +14,13 @@ from tagmetry.lab.bench.results import Results
 from tagmetry.lab.bench.row import Row
 from tagmetry.lab.bench.setup import FULL_HD, SETUPS, Setup
 from tagmetry.lab.engines import OURS, TRACKER
+from tagmetry.lab.engines.palette import COLOURS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
-_COLOURS = {
-    OURS: "#d55e00",
-    TRACKER: "#e69f00",
-    "opencv-none": "#9bd0f0",
-    "opencv-subpix": "#56b4e9",
-    "opencv-contour": "#2a87bf",
-    "opencv-apriltag": "#0b4f79",
-    "apriltag": "#009e73",
-    "apriltag-2": "#66c2a5",
-    "locus": "#cc79a7",
-}
 _PANEL_INCH = (5.0, 3.8)
 _LEGEND_INCH = 0.5
 _DPI = 100
@@ -100,7 +90,7 @@ def _time_and_error(axes: "Axes", results: Results) -> None:
     rows = _weighed(results)
     for row in rows:
         at = np.array([row.p50_ms, row.corner_rms_px], dtype=np.float64)
-        colour = _COLOURS.get(row.engine, "0.5")
+        colour = COLOURS.get(row.engine, "0.5")
         axes.plot(*at, "o", ms=8, color=colour, label=row.engine)
     if rows[0].bound_px is not None:
         axes.axhline(rows[0].bound_px, color="k", ls="--", lw=1, label=_BOUND)
@@ -192,7 +182,7 @@ def _curve(
     ]
     if points:
         width = 2.2 if engine.startswith(OURS) else 1.1
-        colour = _COLOURS.get(engine, "0.5")
+        colour = COLOURS.get(engine, "0.5")
         axes.plot(*zip(*points, strict=True), "o-", ms=4, lw=width, color=colour, label=engine)
 
 

@@ -11,23 +11,18 @@ import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
-from tagmetry.geometry.arrays import FloatImage, GreyPixels
+from tagmetry.geometry.arrays import FloatImage
 from tagmetry.geometry.transforms import Rotation
-from tagmetry.lab.bench.case import Case, Seen, Truth
+from tagmetry.lab.bench.case import Case, Truth
 from tagmetry.lab.bench.clutter import clutter_light
-from tagmetry.lab.bench.setup import Setup
+from tagmetry.lab.bench.setup import SIZE_M, Setup
+from tagmetry.lab.bench.stage import Stage, drawn_motion_px, photographed, seen_on
 from tagmetry.markers import MountedMarker
 from tagmetry.markers import family as family_of
-from tagmetry.twin import Optics, Scene, Shot, exposed
-from tagmetry.twin.optics import Gamma, Sensor, developed
-from tagmetry.twin.scenes import Still, marker_thing
 
-SIZE_M = 0.1
-_BLACK, _WHITE, _BACKGROUND = 0.12, 0.82, 0.45  # radiance, of full scale
+_BACKGROUND = 0.45  # radiance, of full scale
 _MOST_TILT_DEG = 35.0
 _SWING_PX, _SWING_DEG = 6.0, 3.0  # of 12 images: 3 px an image, and 1.6 px off a straight path
-_ROUNDING_GREY = 1 / np.sqrt(12)
-_HERE = Still(RigidTransform.identity())
 
 
 def rendered(setup: Setup, family: str, seed: int = 0) -> Case:
@@ -41,12 +36,13 @@ def rendered(setup: Setup, family: str, seed: int = 0) -> Case:
     rng = np.random.default_rng([seed, *setup.name.encode()])
     camera, behind = _camera(setup), _behind(setup, seed)
     films = _films(setup, camera, family, rng)
+    stage = Stage(setup, camera, behind, drawn_motion_px(setup, rng))
     return Case(
         setup.name,
         family,
-        tuple(_photograph(setup, camera, markers, behind, rng) for markers in films),
+        tuple(photographed(stage, markers, rng) for markers in films),
         tuple(_truth(markers, camera) for markers in films),
-        _seen(setup, camera),
+        seen_on(stage),
         setup.is_standard,
         setup.images > 1,
     )
@@ -66,22 +62,6 @@ def _behind(setup: Setup, seed: int) -> FloatImage:
     return np.asarray(cv2.GaussianBlur(sharp, (0, 0), setup.blur_px), np.float32)
 
 
-def _photograph(
-    setup: Setup,
-    camera: Camera,
-    markers: Sequence[MountedMarker],
-    behind: FloatImage,
-    rng: np.random.Generator,
-) -> GreyPixels:
-    """Return an image: the markers' own light, and of what is behind them what they leave free."""
-    things = (marker_thing(markers, paper=_WHITE, ink=_BLACK),) if markers else ()
-    shot = Shot(camera, _HERE, optics=Optics(blur_px=setup.blur_px))
-    own = exposed(Scene(things, background=0.0), shot)
-    free = exposed(Scene(things, background=1.0), shot) - own
-    sensor = Sensor(response=Gamma(setup.exponent), noise_grey=setup.noise)
-    return np.asarray(developed(own + free * behind, sensor, rng), dtype=np.uint8)
-
-
 def _truth(markers: Sequence[MountedMarker], camera: Camera) -> Truth:
     if not markers:
         return Truth(np.empty(0, np.int64), np.empty((0, 4, 2)))
@@ -90,12 +70,6 @@ def _truth(markers: Sequence[MountedMarker], camera: Camera) -> Truth:
         np.stack([camera.project(marker.corners_m) for marker in markers]),
         RigidTransform.concatenate([marker.T_body_marker for marker in markers]),
     )
-
-
-def _seen(setup: Setup, camera: Camera) -> Seen:
-    black, white = (255.0 * level ** (1 / setup.exponent) for level in (_BLACK, _WHITE))
-    noise = float(np.hypot(setup.noise, _ROUNDING_GREY))
-    return Seen(camera, SIZE_M, black, white, setup.blur_px, setup.exponent, noise)
 
 
 def _films(
@@ -116,16 +90,38 @@ def _poses(
 ) -> list[RigidTransform]:
     """Return T_camera_marker of a marker in every image."""
     at_px = _place_px(setup, n)
-    turn_deg, tilt_deg, lean_deg = rng.uniform(-1, 1, 3) * [180, _MOST_TILT_DEG, _MOST_TILT_DEG]
+    turn_deg, tilt_deg, lean_deg = _angles_deg(setup, rng)
     phase_rad = rng.uniform(0, 2 * np.pi)
     poses = []
     for k in range(setup.images):
         swing = _swing(setup, 2 * np.pi * k / setup.images + phase_rad)
         ray = camera.unproject(at_px + _SWING_PX * swing)
         angles = [180 + tilt_deg, lean_deg, turn_deg + _SWING_DEG * swing[0]]
-        R_camera_marker = Rotation.from_euler("xyz", angles, degrees=True)
+        R_camera_marker = _R_camera_sight(setup, ray) * Rotation.from_euler(
+            "xyz", angles, degrees=True
+        )
         poses.append(RigidTransform.from_components(ray / ray[2] * depth_m, R_camera_marker))
     return poses
+
+
+def _angles_deg(setup: Setup, rng: np.random.Generator) -> Array:
+    """Return how a marker leans about x and y, and is turned about z: (about z, x, y)."""
+    drawn = rng.uniform(-1, 1, 3)
+    if setup.tilt_deg is None:
+        return np.asarray(drawn * [180, _MOST_TILT_DEG, _MOST_TILT_DEG])
+    tilt_rad, to_side_rad = np.radians(setup.tilt_deg), np.pi * drawn[1]
+    about_x = np.arcsin(np.sin(tilt_rad) * np.cos(to_side_rad))
+    about_y = np.arctan2(np.sin(tilt_rad) * np.sin(to_side_rad), np.cos(tilt_rad))
+    return np.array([180 * drawn[0], np.degrees(about_x), np.degrees(about_y)])
+
+
+def _R_camera_sight(setup: Setup, ray: Array) -> Rotation:  # noqa: N802 (frames)
+    """Return the frame that a marker leans in: the camera's, or that of its line of sight."""
+    if setup.tilt_deg is None:
+        return Rotation.identity()
+    axis = np.cross([0.0, 0.0, 1.0], ray)
+    angle_rad = np.arccos(np.clip(ray[2], -1, 1))
+    return Rotation.from_rotvec(angle_rad * axis / max(np.linalg.norm(axis), 1e-12))
 
 
 def _swing(setup: Setup, phase_rad: float) -> Array:

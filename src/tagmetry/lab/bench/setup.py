@@ -6,6 +6,7 @@ from typing import Literal
 Extent = Literal["quick", "default", "full"]
 EXTENTS: tuple[Extent, ...] = ("quick", "default", "full")
 FULL_HD = (1920, 1080)
+SIZE_M = 0.1  # of the markers
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,11 @@ class Setup:
         images: How many; more than one is a film of moving markers.
         extent: From which extent of the bench on it is measured.
         all_threads: It is measured with all threads as well.
+        tilt_deg: How far every marker leans, to any side; None for up to 35 about two axes.
+        contrast: Light of paper less that of ink, of full scale.
+        motion_px: How far the markers move while the shutter is open, in any direction.
+        white_electrons: What a white pixel gathers, with the noise of light and of the reading;
+            None is light without noise.
     """
 
     name: str
@@ -37,6 +43,10 @@ class Setup:
     images: int = 1
     extent: Extent = "full"
     all_threads: bool = False
+    tilt_deg: float | None = None
+    contrast: float = 0.7
+    motion_px: float = 0.0
+    white_electrons: float | None = None
 
     @property
     def is_standard(self) -> bool:
