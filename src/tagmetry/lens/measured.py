@@ -1,0 +1,158 @@
+"""A marker's pose with all that it is unsure of: noise, model, calibration and size.
+
+The corners' own covariance holds the image's noise. To it are added what no fit of so few pixels
+can know (`accuracy`), and the errors of calibration and size, carried to the pose by
+
+    d(pose) = (J^T C^-1 J)^-1 J^T C^-1 d(pixels)
+
+with J the corners' derivatives by the pose, C their covariance. Where the other of a flat marker's
+two poses is possible too, the way to it counts with its probability.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from tagmetry.camera import Camera
+from tagmetry.detect import Detection
+from tagmetry.geometry import Array, RigidTransform, cross_matrix, pose_difference
+from tagmetry.geometry.transforms import Rotation
+from tagmetry.lens.accuracy import unmodelled_px
+from tagmetry.lens.readable import MarkerKind
+from tagmetry.lens.setting import LensSetting
+from tagmetry.lens.zoom_lens import ZoomLens
+from tagmetry.markers import marker_corners_m
+from tagmetry.pose import MarkerPose, estimate_pose
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """One measurement of one marker.
+
+    Attributes:
+        setting: The zoom and focus that it was taken at.
+        detection: Where it was in the image.
+        pose: Both hypotheses, with the corners' part of the covariance.
+        covariance: Of the best hypothesis with everything in it, shape (6, 6), (translation,
+            rotation vector) on the left in the camera frame, m and rad.
+        blur_px: Standard deviation of its blur in the image; NaN where it was not measured.
+    """
+
+    setting: LensSetting
+    detection: Detection
+    pose: MarkerPose
+    covariance: Array
+    blur_px: float
+
+    @property
+    def T_camera_marker(self) -> RigidTransform:  # noqa: N802 (frames are named so)
+        """The best pose."""
+        return self.pose.best.T_camera_marker
+
+    @property
+    def depth_m(self) -> float:
+        """Depth along the camera's axis."""
+        return float(self.T_camera_marker.translation[2])
+
+    @property
+    def depth_sd_m(self) -> float:
+        """Its standard deviation."""
+        return float(np.sqrt(self.covariance[2, 2]))
+
+    @property
+    def turn_sd_rad(self) -> float:
+        """Standard deviation of the rotation about its least certain axis."""
+        return float(np.sqrt(np.linalg.eigvalsh(self.covariance[3:, 3:])[-1]))
+
+    @cached_property
+    def tilt_rad(self) -> float:
+        """Angle between the view and the marker's normal."""
+        p_camera = np.asarray(self.T_camera_marker.translation)
+        normal = self.T_camera_marker.rotation.as_matrix()[:, 2]
+        cosine = -normal @ p_camera / np.linalg.norm(p_camera)
+        return float(np.arccos(np.clip(cosine, -1, 1)))
+
+
+def measured(
+    detection: Detection,
+    lens: ZoomLens,
+    marker: MarkerKind,
+    setting: LensSetting,
+    blur_px: float = float("nan"),
+) -> Measured | None:
+    """Return the pose of a marker seen at a setting; None where its corners are no marker's.
+
+    Args:
+        detection: Its corners.
+        lens: The camera, with its bank.
+        marker: Its size.
+        setting: What the image was taken at.
+        blur_px: Its blur, see `marker_blur_px`; where it is not known it is taken to be sharp.
+    """
+    camera = lens.camera_at(setting)
+    seen = _with_model_error(detection, lens, marker, setting, blur_px)
+    pose = estimate_pose(seen, camera, marker.size_m)
+    if not pose.hypotheses:
+        return None
+    covariance = pose.covariance + _of_calibration_and_size(pose, seen, camera, marker)
+    covariance = covariance + _of_alternatives(pose)
+    return Measured(setting, seen, pose, covariance, blur_px)
+
+
+def _with_model_error(
+    detection: Detection, lens: ZoomLens, marker: MarkerKind, setting: LensSetting, blur_px: float
+) -> Detection:
+    """Return the detection with what no noise tells added to its corners' covariance."""
+    resolved_per_px = min(1.0, lens.native_percent / setting.zoom_percent)
+    side_px = _least_extent_px(detection) * resolved_per_px
+    sharp_or_not_px = blur_px if np.isfinite(blur_px) else 0.0
+    error_px = (
+        unmodelled_px(side_px, marker.side_cells, sharp_or_not_px, resolved_per_px)
+        / resolved_per_px
+    )
+    more_px2 = error_px**2 * np.eye(8)
+    return replace(detection, corners_cov_px2=detection.corners_cov_px2 + more_px2)
+
+
+def _least_extent_px(detection: Detection) -> float:
+    """Return the root of the marker's area: its side, foreshortened half as much."""
+    x, y = detection.corners_px.T
+    area_px2 = 0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
+    return max(float(np.sqrt(area_px2)), 1.0)
+
+
+def _of_calibration_and_size(
+    pose: MarkerPose, seen: Detection, camera: Camera, marker: MarkerKind
+) -> Array:
+    """Return what errors of the intrinsics and of the size add to the pose's covariance."""
+    T_camera_marker = pose.best.T_camera_marker
+    from_centre = T_camera_marker.rotation.apply(marker_corners_m(marker.size_m))
+    p_camera = from_centre + T_camera_marker.translation
+    _, by_point = camera.project_with_jacobian(p_camera)
+    turned = np.stack([-cross_matrix(arm) for arm in from_centre])
+    J = np.concatenate([by_point, by_point @ turned], axis=2).reshape(8, 6)
+    weights = np.linalg.inv(seen.corners_cov_px2)
+    gain = -np.linalg.solve(J.T @ weights @ J, J.T @ weights)
+    by_size = gain @ (by_point @ (from_centre / marker.size_m)[..., None]).reshape(8)
+    covariance = marker.size_sd_m**2 * np.outer(by_size, by_size)
+    if camera.covariance is not None:
+        by_camera = gain @ camera.parameter_jacobian(p_camera).reshape(8, -1)
+        covariance = covariance + by_camera @ camera.covariance @ by_camera.T
+    return np.asarray(covariance)
+
+
+def _of_alternatives(pose: MarkerPose) -> Array:
+    """Return the mean square of the way to the other hypothesis."""
+    covariance = np.zeros((6, 6))
+    for other in pose.alternatives:
+        way = pose_difference(pose.best.T_camera_marker, other.T_camera_marker)
+        covariance += other.probability * np.outer(way, way)
+    return covariance
+
+
+def turn_about_y_deg(T_camera_marker: RigidTransform) -> float:
+    """Return the angle phi of seed 000: a facing marker's turn about its upright axis."""
+    R_camera_facing = T_camera_marker.rotation * Rotation.from_euler("x", 180, degrees=True)
+    normal = R_camera_facing.as_matrix()[:, 2]
+    return float(np.degrees(np.arctan2(normal[0], normal[2])))

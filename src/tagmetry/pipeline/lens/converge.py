@@ -1,0 +1,139 @@
+"""From a first sighting to a measurement that is as good as the camera makes it.
+
+Measure, choose the setting that promises the most at that depth, wait for it to show, measure
+again; done when the setting stays, two images in a row agree, and the stated uncertainty is
+reached or nothing promises less. A zoom that was never seen to do anything is tried once: a depth
+is no better than the zoom that it was computed with.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from tagmetry.camera.controls import ControlStuckError
+from tagmetry.geometry import mahalanobis_squared
+from tagmetry.lens import (
+    LensSetting,
+    Measured,
+    Whereabouts,
+    better_exposure_s,
+    marker_levels,
+    next_setting,
+)
+from tagmetry.pipeline.lens.drive import Drive
+from tagmetry.pipeline.lens.evidence import disobedience, shows_zoom, telling_zoom
+from tagmetry.pipeline.lens.step import LensStep
+from tagmetry.pipeline.lens.task import LensTask
+
+_AGREE = 27.9  # chi-squared with 3 degrees of freedom, passed once in 250,000 pairs
+_MOST_LATE = 10  # images beyond the lag that a control may take to show
+_MOST_MISSES = 4
+
+
+def converge(task: LensTask, drive: Drive, first: Measured) -> Iterator[LensStep]:
+    """Give a step for each image until the measurement is final, or the marker is lost.
+
+    Args:
+        task: What is measured.
+        drive: The camera.
+        first: Where the marker was seen, however blurred.
+
+    Raises:
+        ControlStuckError: The images do not show what was commanded.
+    """
+    state = _State(task, drive, first)
+    drive.go(state.wanted(first))
+    for left in reversed(range(task.most_images)):
+        step = state.judged(task.look(drive.take(), "iterate"))
+        if left == 0 and not step.is_final:
+            step = replace(
+                step, reason=f"not converged in {task.most_images} images; does it move?"
+            )
+        yield step
+        if step.is_final or state.misses > _MOST_MISSES + drive.lag.images:
+            return
+
+
+class _State:
+    """What the iteration remembers from image to image."""
+
+    def __init__(self, task: LensTask, drive: Drive, first: Measured) -> None:
+        self._task, self._drive, self._first = task, drive, first
+        self._elsewhere: Measured | None = None  # the last one at another setting
+        self._last: Measured | None = None  # the last one at the present setting
+        self._late = 0
+        self._is_exposed = False
+        self.misses = 0
+
+    def wanted(self, found: Measured) -> LensSetting:
+        """Return the setting that is best for where it was seen."""
+        at = Whereabouts(np.asarray(found.T_camera_marker.translation), found.tilt_rad)
+        return next_setting(self._task.lens, self._task.marker, at, self._drive.commanded)
+
+    def judged(self, step: LensStep) -> LensStep:
+        """Return the step with what it means, and command what follows from it."""
+        if step.found is None:
+            self.misses += 1
+            return step
+        self.misses = 0
+        if not step.is_settled or self._is_late(step.found) or self._exposes(step):
+            return step
+        wanted = self.wanted(step.found)
+        if wanted != self._drive.commanded:
+            self._elsewhere, self._last = step.found, None
+            self._drive.go(wanted)
+            return step
+        before, self._last = self._last, step.found
+        if before is None or not _agree(before, step.found):
+            return step
+        if not self._drive.zoom_is_proven:
+            self._elsewhere, self._last = step.found, None
+            self._drive.go(telling_zoom(self._task.lens, step.found))
+            return step
+        return replace(step, is_final=True, reason=self._why_final(step.found))
+
+    def _is_late(self, found: Measured) -> bool:
+        """Say whether the image does not show the commanded setting yet."""
+        seen = disobedience(self._task.lens, self._elsewhere, found)
+        if seen is None:
+            self._late = 0
+            self._prove_zoom(found)
+            return False
+        self._late += 1
+        if self._late > _MOST_LATE:
+            raise ControlStuckError(
+                f"{seen.control}: {seen.told}, {self._late} images later than the camera takes; "
+                "the control sticks, or the lens is another than was measured"
+            )
+        return True
+
+    def _prove_zoom(self, found: Measured) -> None:
+        shown = [shows_zoom(one, found) for one in (self._first, self._elsewhere) if one]
+        self._drive.zoom_is_proven |= True in shown
+
+    def _exposes(self, step: LensStep) -> bool:
+        """Correct the exposure once by the marker's own contrast; say whether that was done."""
+        control = self._drive.controls.available.get("exposure")
+        if self._is_exposed or control is None or step.found is None:
+            return False
+        self._is_exposed = True
+        side_cells = self._task.marker.side_cells
+        levels = marker_levels(step.image.pixels, step.found.detection, side_cells)
+        present_s = self._drive.controls.read("exposure")
+        better_s = better_exposure_s(levels, present_s, control)
+        if better_s == present_s:
+            return False
+        self._drive.expose(better_s)
+        return True
+
+    def _why_final(self, found: Measured) -> str:
+        reached = found.depth_sd_m <= self._task.wanted_share * found.depth_m
+        return "" if reached else "converged; no setting promises less uncertainty than this"
+
+
+def _agree(before: Measured, now: Measured) -> bool:
+    """Say whether two places differ by no more than the noise that both have."""
+    moved_m = np.asarray(now.T_camera_marker.translation - before.T_camera_marker.translation)
+    covariance = (before.pose.covariance + now.pose.covariance)[:3, :3]
+    return bool(mahalanobis_squared(moved_m, covariance) < _AGREE)

@@ -1,0 +1,75 @@
+"""Do the images show what was commanded? A control that sticks, or is late, shows in the marker.
+
+Zoom: the marker grows with it. Focus: where the marker should be sharp it is not.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tagmetry.lens import LensSetting, Measured, ZoomLens
+
+_TELLING_ZOOM = 1.15
+_MORE = 1.33
+_AROUND = 2.0  # of a marker's side, the room that it needs
+_BLURRED_PX = 3.5  # standard deviation beyond what the setting should leave
+
+
+@dataclass(frozen=True)
+class Disobedience:
+    """What a control should show and does not.
+
+    Attributes:
+        control: Its name.
+        told: What was seen, in words.
+    """
+
+    control: str
+    told: str
+
+
+def disobedience(lens: ZoomLens, before: Measured | None, now: Measured) -> Disobedience | None:
+    """Return which control does not show in an image that is thought to be settled.
+
+    Args:
+        lens: The camera.
+        before: The last measurement at another setting, of a marker that hardly moved since.
+        now: This one.
+    """
+    if before is not None and (told := _zoom_did_not(before, now)):
+        return Disobedience("zoom", told)
+    expected_px = lens.blur_of_depth_px(now.setting, now.depth_m) / 4
+    if now.blur_px > 2 * expected_px + _BLURRED_PX:
+        return Disobedience(
+            "focus",
+            f"at {now.setting.focus:g} the marker should be sharp, and is blurred by "
+            f"{now.blur_px:.1f} px",
+        )
+    return None
+
+
+def shows_zoom(before: Measured, now: Measured) -> bool | None:
+    """Say whether a marker grew with the zoom between two images; None where it hardly changed."""
+    ratio = now.setting.zoom_percent / before.setting.zoom_percent
+    if max(ratio, 1 / ratio) < _TELLING_ZOOM:
+        return None
+    grew = now.detection.side_px / before.detection.side_px
+    return bool(abs(np.log(grew)) >= abs(np.log(grew / ratio)))
+
+
+def telling_zoom(lens: ZoomLens, now: Measured) -> LensSetting:
+    """Return a setting whose zoom tells whether it shows: more of it where the marker has room."""
+    has_room = _MORE * _AROUND * now.detection.side_px < min(lens.size_px)
+    zoom = now.setting.zoom_percent * (_MORE if has_room else 1 / _MORE)
+    return LensSetting(lens.zoom.nearest(zoom), now.setting.focus)
+
+
+def _zoom_did_not(before: Measured, now: Measured) -> str:
+    if shows_zoom(before, now) is not False:
+        return ""
+    grew = now.detection.side_px / before.detection.side_px
+    return f"from {_text(before.setting)} to {_text(now.setting)} the marker grew {grew:.2f} times"
+
+
+def _text(setting: LensSetting) -> str:
+    return f"{setting.zoom_percent:g} percent"
