@@ -1,0 +1,119 @@
+"""The entries of a recording, also of one that was cut off or damaged.
+
+A piece whose check sum is wrong is passed over; where the file ends in the middle of a piece, all
+that is whole is given. Nothing that a file says of its own sizes is believed beyond what is there.
+"""
+
+import io
+import struct
+import warnings
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+from tagmetry.errors import InputError
+from tagmetry.record.mcap.pieces import MAGIC, Entry, require_mcap
+
+LARGEST_PIECE_BYTES = 256 * 2**20
+_SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _DATA_END = 0x03, 0x04, 0x05, 0x06, 0x0F
+_RECORD = struct.Struct("<BQ")
+_CHUNK_HEAD = struct.Struct("<QQQII")
+_MESSAGE_HEAD = struct.Struct("<HIQQ")
+
+
+class DamagedRecordingWarning(UserWarning):
+    """A part of a recording could not be read; the rest was."""
+
+
+def read_entries(path: str | Path, *topics: str) -> Iterator[Entry]:
+    """Give the entries of a recording in the order in which they were written.
+
+    Args:
+        path: The file.
+        topics: Only these; all where none is named.
+
+    Raises:
+        InputError: It cannot be read, or is no MCAP file.
+        MissingExtraError: The part `arena` is not installed.
+    """
+    require_mcap("reading")
+    try:
+        with Path(path).open("rb") as file:
+            if file.read(len(MAGIC)) != MAGIC:
+                raise InputError(f"{path}: expected an MCAP file, found something else")
+            for piece in _pieces(file, str(path)):
+                for entry in _entries(piece):
+                    if not topics or entry.topic in topics:
+                        yield entry
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror or error}") from error
+
+
+def _pieces(file: BinaryIO, path: str) -> Iterator[bytes]:
+    """Give the content of every whole piece."""
+    for kind, body in _records(file):
+        if kind == _DATA_END:
+            return
+        if kind == _CHUNK:
+            content = _unpacked(body)
+            if content is None:
+                _warn(f"{path}: passed over a piece that is damaged")
+            else:
+                yield content
+    _warn(f"{path}: its end is missing, cut off or damaged; all whole pieces before it are read")
+
+
+def _records(file: BinaryIO) -> Iterator[tuple[int, bytes]]:
+    """Give kind and body of every record that is all there."""
+    while len(head := file.read(_RECORD.size)) == _RECORD.size:
+        kind, size_bytes = _RECORD.unpack(head)
+        body = file.read(size_bytes) if size_bytes <= LARGEST_PIECE_BYTES else b""
+        if len(body) < size_bytes:
+            return
+        yield kind, body
+
+
+def _unpacked(chunk: bytes) -> bytes | None:
+    """Return the records of a piece; None where it is damaged, or packed in a way we never do."""
+    if len(chunk) < _CHUNK_HEAD.size:
+        return None
+    _, _, size_bytes, crc, name_bytes = _CHUNK_HEAD.unpack_from(chunk)
+    name_end = _CHUNK_HEAD.size + name_bytes
+    packed = chunk[name_end + 8 :]
+    if size_bytes > LARGEST_PIECE_BYTES:
+        return None
+    content = _decompressed(chunk[_CHUNK_HEAD.size : name_end], packed, size_bytes)
+    is_whole = content is not None and len(content) == size_bytes
+    return content if is_whole and zlib.crc32(content or b"") == crc else None
+
+
+def _decompressed(compression: bytes, packed: bytes, size_bytes: int) -> bytes | None:
+    import zstandard
+
+    if compression == b"":
+        return packed
+    if compression != b"zstd":
+        return None
+    try:
+        with zstandard.ZstdDecompressor().stream_reader(io.BytesIO(packed)) as reader:
+            return bytes(reader.read(size_bytes + 1))
+    except zstandard.ZstdError:
+        return None
+
+
+def _entries(piece: bytes) -> Iterator[Entry]:
+    """Give the messages of a piece."""
+    topics: dict[int, str] = {}
+    for kind, body in _records(io.BytesIO(piece)):
+        if kind == _CHANNEL and len(body) >= 8:
+            number, _, name_bytes = struct.unpack_from("<HHI", body)
+            topics[number] = body[8 : 8 + name_bytes].decode("utf-8", "replace")
+        elif kind == _MESSAGE and len(body) >= _MESSAGE_HEAD.size:
+            number, _, logged_ns, stamped_ns = _MESSAGE_HEAD.unpack_from(body)
+            content = body[_MESSAGE_HEAD.size :]
+            yield Entry(topics.get(number, ""), logged_ns, stamped_ns, content)
+
+
+def _warn(text: str) -> None:
+    warnings.warn(text, DamagedRecordingWarning, stacklevel=2)
