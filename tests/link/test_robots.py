@@ -76,6 +76,17 @@ def test_stands_still_250_ms_after_the_last_word_was_sent(air: Air) -> None:
     assert air.robot.may_move(air.robot_us)
 
 
+@pytest.mark.parametrize("message", [TimeReply(0), EmergencyStop(0, 2)])
+def test_what_the_link_says_by_itself_is_no_sign_of_a_living_program(
+    air: Air, message: TimeReply | EmergencyStop
+) -> None:
+    air.link()
+    assert air.to_robot(air.send(message))
+    assert not air.robot.may_move(air.robot_us)
+    assert air.to_robot(air.send(Beat()))
+    assert air.robot.may_move(air.robot_us)
+
+
 def test_a_beat_that_was_held_back_does_not_prolong(air: Air) -> None:
     air.link()
     beat = air.send(Beat())

@@ -35,6 +35,7 @@ from tagmetry.link.wire import (
 )
 
 _STILL = Command()
+_NO_SIGNS_OF_LIFE = (Kind.TIME_REPLY, Kind.ESTOP)  # the host's link sends them without its program
 
 
 class Robot:
@@ -54,7 +55,7 @@ class Robot:
         self._clock = HostClock(0, 0, 0)
         self._asked_us: int | None = None
         self._heard_us = 0  # robot's clock: the last packet that was accepted
-        self._spoken_us: int | None = None  # host's clock: when the newest packet was sent
+        self._spoken_us: int | None = None  # host's clock: when the program was last alive
         self._round_trip_us = 0
         self._command = _STILL
         self._newest_us: dict[Kind, int] = {}  # host's clock: when the newest of a kind was sent
@@ -127,7 +128,8 @@ class Robot:
         message = self._session.open(packet, header, self.host_us(now_us))
         if not isinstance(message, Refusal):
             self._heard_us = now_us
-            self._spoken_us = max(self._spoken_us or 0, header.sent_us)
+            if header.kind not in _NO_SIGNS_OF_LIFE:
+                self._spoken_us = max(self._spoken_us or 0, header.sent_us)
             self._obey(message, header, now_us)
         return message
 

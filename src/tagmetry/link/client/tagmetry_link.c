@@ -165,7 +165,7 @@ static int receive_assign(tm_robot *r, const uint8_t *packet, int size, const tm
     r->round_trip_us = (uint32_t)(now_us - assign.robot_us);
     r->heard = r->spoken_us = 0;
     r->counter = r->highest = r->received = r->edition = 0;
-    r->has_asked = r->has_heard = 0;
+    r->has_asked = 0;
     memset(r->newest_us, 0, sizeof r->newest_us);
     memset(&r->command, 0, sizeof r->command);
     memset(&r->neighbours, 0, sizeof r->neighbours);
@@ -234,8 +234,8 @@ int tm_receive(tm_robot *r, const uint8_t *packet, int size, uint64_t now_us) {
     if (!makes_sense(&head, packet + sizeof head)) return 0;
     remember(r, head.counter);
     r->heard_us = now_us;
-    if (!r->has_heard || head.sent_us > r->spoken_us) r->spoken_us = head.sent_us;
-    r->has_heard = 1;
+    if (head.kind != TM_TIME_REPLY && head.kind != TM_ESTOP && head.sent_us > r->spoken_us)
+        r->spoken_us = head.sent_us; /* those two are no sign that the host's program lives */
     obey(r, &head, packet + sizeof head, now_us);
     return head.kind;
 }
@@ -285,7 +285,7 @@ int tm_due(tm_robot *r, uint8_t *out, uint64_t now_us) {
 }
 
 int tm_may_move(const tm_robot *r, uint64_t now_us) {
-    if (!r->is_linked || !r->has_heard || r->is_stopped) return 0;
+    if (!r->is_linked || r->spoken_us == 0 || r->is_stopped) return 0;
     return (int64_t)(tm_host_us(r, now_us) - r->spoken_us) <= TM_SILENCE_US;
 }
 

@@ -104,7 +104,7 @@ typedef struct {
     tm_neighbour seen[TM_MOST_NEIGHBOURS];
 
     uint16_t robot;
-    uint8_t is_linked, is_stopped, has_asked, has_heard;
+    uint8_t is_linked, is_stopped, has_asked;
     uint8_t key[TM_KEY_BYTES], session_key[TM_KEY_BYTES];
     uint64_t nonce, heard; /* bit n of heard: the counter n below the highest */
     uint32_t session, counter, highest, received, edition, round_trip_us;
