@@ -68,7 +68,14 @@ class SmallWorld:
             if other != robot and then[robot].distance_m(then[other]) < self.range_m
         ]
         place = self.places[robot]
-        return View(robot, self.time_s, self.twists[robot], tuple(neighbours), place=place)
+        return View(
+            robot,
+            self.time_s,
+            self.twists[robot],
+            tuple(neighbours),
+            place=place,
+            sensed_s=self.time_s - late_s,
+        )
 
     @staticmethod
     def _neighbour(other: int, own: Place, there: Place, late_s: float) -> Neighbour:

@@ -121,8 +121,12 @@ class Neighbourhood:
         self._crowds.append(_Crowd(world))
         return tuple(self._told(robot.id, world.time_s) for robot in world)
 
+    def sensor_of(self, robot_id: int) -> NeighbourSensor:
+        """Return the sensor that a robot has."""
+        return self.sensors.get(robot_id, self.sensor)
+
     def _told(self, robot_id: int, time_s: float) -> Told:
-        sensor = self.sensors.get(robot_id, self.sensor)
+        sensor = self.sensor_of(robot_id)
         crowd = self._crowd_at(time_s - sensor.delay_s)
         if crowd is None or robot_id not in crowd.rows:
             return Told(robot_id, time_s, (), ())

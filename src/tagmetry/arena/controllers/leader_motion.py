@@ -1,7 +1,7 @@
 """How a robot's neighbour moves, from what the robot senses of it and from its own wheels.
 
-The robot keeps a frame of its own by its wheels. Each sighting is old by its age: it is put into
-that frame from where the robot was then, filtered there (place and velocity, alpha and beta), and
+The robot keeps a frame of its own by its wheels. A sighting may be old: it is put into that frame
+from where the robot was then, filtered there (place and velocity, alpha and beta), and
 carried on to now along the circle that its heading's rate says. So a delay costs no lag while the
 neighbour moves steadily.
 """
@@ -51,7 +51,8 @@ class NeighbourMotion:
         """Take in a moment; return the neighbour as of now, None before the first sighting."""
         self._drive_on(view)
         if neighbour is not None:
-            self._take_in(view.time_s - neighbour.age_s, _relative(neighbour))
+            sensed_s = view.time_s if view.sensed_s is None else view.sensed_s
+            self._take_in(sensed_s, _relative(neighbour))
         if self._sighted_s is None:
             return None
         ahead_s = view.time_s - self._sighted_s

@@ -23,9 +23,10 @@ class View:
         robot: Its id.
         time_s: Now, in the arena's clock.
         twist: How it moves, by its own wheels.
-        neighbours: The robots that its sensor reaches, each as old as its `age_s` says.
+        neighbours: The robots that its sensor reaches, as they stood at `sensed_s`.
         obstacles: The obstacles that its sensor reaches.
         place: Where it is in the world, carried on to now; None where the arena does not tell.
+        sensed_s: When neighbours and obstacles stood so; now when None.
     """
 
     robot: int
@@ -34,6 +35,7 @@ class View:
     neighbours: tuple[Neighbour, ...] = ()
     obstacles: tuple[NearObstacle, ...] = ()
     place: Place | None = None
+    sensed_s: float | None = None
 
     def neighbour(self, robot: int) -> Neighbour | None:
         """Return one neighbour; None where it is not seen."""

@@ -1,0 +1,220 @@
+"""The simulated arena, running: physics, camera, arena, controllers, link, in simulated time.
+
+Every 8 ms the robots' computers look at what has arrived, read their encoders and set their wheels.
+Every image is measured when its delay is over; then the host takes its turn, and what it tells
+leaves through the air. Nothing here waits for a clock: simulated time is as fast as the computer.
+"""
+
+from collections import deque
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from tagmetry.arena import Arena, Neighbourhood, Roster, StopForAll, Told
+from tagmetry.arena.drive import Twist
+from tagmetry.arena.place import Place
+from tagmetry.detect import Detection
+from tagmetry.link import Command, Neighbour, Neighbours, Odometry, Pose, RobotLink, Telemetry
+from tagmetry.pipeline.arena_control import ArenaControl, Turn
+from tagmetry.pipeline.arena_twin.air import HOST, Air
+from tagmetry.pipeline.arena_twin.base import Base
+from tagmetry.pipeline.arena_twin.eyes import CornerEye, Eye
+from tagmetry.pipeline.arena_twin.on_board import OnBoard
+from tagmetry.pipeline.arena_twin.scenario import Scenario
+from tagmetry.pipeline.guarded import Guarded
+from tagmetry.twin.robots import RobotsPhysics
+
+TICK_S = 0.008
+_COMMAND_MS = 200
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """The arena when an image has been measured.
+
+    Attributes:
+        time_s: Now.
+        image_s: When the image was taken.
+        detections: What it showed.
+        turn: What the host made of it.
+        places: Where the robots truly are now, by id.
+        twists: How they truly move now.
+        odometry: What their wheels said last; robots that said nothing yet are left out.
+        readings: Their telemetry, by id and name.
+        links: How every robot's link does.
+        touching: Pairs of ids of robots that touch.
+    """
+
+    time_s: float
+    image_s: float
+    detections: tuple[Detection, ...]
+    turn: Turn
+    places: Mapping[int, Place]
+    twists: Mapping[int, Twist]
+    odometry: Mapping[int, Odometry]
+    readings: Mapping[int, Mapping[str, float]]
+    links: tuple[RobotLink, ...]
+    touching: frozenset[tuple[int, int]]
+
+
+class TwinArena:
+    """A scenario that runs."""
+
+    def __init__(self, scenario: Scenario, eye: Eye | None = None) -> None:
+        """Put everything in its place.
+
+        Args:
+            scenario: What there is.
+            eye: The camera; markers' corners with 0.05 px of noise, without pictures, when None.
+        """
+        self.scenario = scenario
+        rng = np.random.default_rng(scenario.seed)
+        self._ids = [one.robot.id for one in scenario.robots]
+        roster = Roster(tuple(one.robot for one in scenario.robots))
+        self._physics = RobotsPhysics(
+            [(one.design, one.start) for one in scenario.robots], scenario.blocks, scenario.patches
+        )
+        self._eye = eye or CornerEye(roster.robots, scenario.view, rng)
+        keys = {robot_id: rng.bytes(32) for robot_id in self._ids}
+        self._air = Air(scenario.radio, rng)
+        self._base = Base(keys, self._air, rng)
+        self._robots = {
+            one.robot.id: OnBoard(one, keys[one.robot.id], rng) for one in scenario.robots
+        }
+        self._controllers = {
+            one.robot.id: Guarded(one.controller())
+            for one in scenario.robots
+            if one.controller is not None and not one.on_board
+        }
+        self._control = ArenaControl(
+            Arena(roster, scenario.view),
+            Neighbourhood(
+                scenario.sensor,
+                obstacles=scenario.obstacles,
+                radii_m={one.robot.id: one.robot.radius_m for one in scenario.robots},
+                seed=scenario.seed,
+            ),
+            scenario.rules,
+            self._controllers,
+        )
+        self._odometry: dict[int, Odometry] = {}
+        self._readings: dict[int, dict[str, float]] = {}
+        self._images: deque[tuple[float, tuple[Detection, ...]]] = deque()
+        self._next_image = 0
+
+    @property
+    def time_s(self) -> float:
+        """Now, in simulated time."""
+        return self._physics.time_s
+
+    @property
+    def physics(self) -> RobotsPhysics:
+        """The robots' bodies: to cut motors, to look at wheels."""
+        return self._physics
+
+    def run(self, duration_s: float) -> Iterator[Moment]:
+        """Let time pass, and yield every image's moment as it is measured."""
+        end_s = self.time_s + duration_s
+        while self.time_s < end_s - TICK_S / 2:
+            yield from self._tick()
+
+    def stop(self, why: str = "pressed") -> None:
+        """Stop all robots, and keep them stopped."""
+        self._control.stop = self._control.stop.pressed(why, self.time_s)
+        self._base.stop()
+
+    def release(self) -> None:
+        """Let them move again."""
+        self._control.stop = StopForAll()
+        self._base.release()
+
+    def close(self) -> None:
+        """End the controllers' threads."""
+        for controller in self._controllers.values():
+            controller.close()
+
+    def _tick(self) -> Iterator[Moment]:
+        now_s = self.time_s
+        if now_s >= self._next_image / self.scenario.image_rate_hz - 1e-9:
+            self._next_image += 1
+            self._images.append((now_s, self._eye.look(now_s, self._physics.poses())))
+        self._deliver(now_s)
+        while self._images and self._images[0][0] + self.scenario.camera_delay_s <= now_s + 1e-9:
+            yield self._moment(*self._images.popleft(), now_s)
+        self._base.beat(_us(now_s))
+        self._think(now_s)
+        self._physics.step(TICK_S)
+
+    def _deliver(self, now_s: float) -> None:
+        for receiver, packet in self._air.arrived(now_s):
+            if receiver == HOST:
+                self._base.hear(packet, _us(now_s))
+            else:
+                self._robots[receiver].hear(packet, now_s)
+        for received in self._base.take():
+            if isinstance(received.message, Odometry):
+                self._odometry[received.robot_id] = received.message
+            elif isinstance(received.message, Telemetry):
+                told = self._readings.setdefault(received.robot_id, {})
+                told.update(received.message.readings)
+
+    def _think(self, now_s: float) -> None:
+        """Let the robots' computers do their work."""
+        counts = self._physics.encoder_counts()
+        for number, robot_id in enumerate(self._ids):
+            robot = self._robots[robot_id]
+            for packet in robot.step(counts[number], now_s):
+                self._air.send(HOST, packet, now_s)
+            self._physics.want(number, robot.wish)
+
+    def _moment(self, image_s: float, detections: tuple[Detection, ...], now_s: float) -> Moment:
+        radio = self.scenario.radio
+        acts_s = now_s + radio.delay_s + radio.jitter_s / 2
+        turn = self._control.turn(detections, image_s, acts_s)
+        self._send(turn, now_s)
+        return Moment(
+            now_s,
+            image_s,
+            detections,
+            turn,
+            dict(zip(self._ids, self._physics.places(), strict=True)),
+            dict(zip(self._ids, self._physics.twists(), strict=True)),
+            dict(self._odometry),
+            {one: dict(told) for one, told in self._readings.items()},
+            self._base.links(_us(now_s)),
+            frozenset((self._ids[a], self._ids[b]) for a, b in self._physics.touching()),
+        )
+
+    def _send(self, turn: Turn, now_s: float) -> None:
+        """Tell the robots: how to move, where they are, whom they sense."""
+        for robot_id, twist in turn.commands.items():
+            command = Command(twist.speed_mps, 0.0, twist.turn_rate_radps, _COMMAND_MS)
+            self._base.send(robot_id, command, _us(now_s))
+        reach_m = self.scenario.sensor.range_m
+        for told in turn.told:
+            self._base.send(told.robot_id, _pose(turn, told.robot_id), _us(now_s))
+            self._base.send(told.robot_id, _neighbours(told, reach_m), _us(now_s))
+
+
+def _pose(turn: Turn, robot_id: int) -> Pose:
+    state = turn.world.robot(robot_id)
+    if state is None:
+        raise RuntimeError(f"robot {robot_id} is told of neighbours, but has no track")
+    sd = np.sqrt(np.diag(state.covariance)).tolist()
+    return Pose(
+        _us(state.time_s), state.x_m, state.y_m, state.heading_rad, state.speed_mps,
+        state.turn_rate_radps, max(sd[:2]), sd[2],
+    )  # fmt: skip
+
+
+def _neighbours(told: Told, reach_m: float) -> Neighbours:
+    seen = tuple(
+        Neighbour(one.id, one.range_m, one.bearing_rad, one.relative_heading_rad, one.age_s)
+        for one in told.neighbours
+    )
+    return Neighbours(_us(told.time_s), reach_m, seen)
+
+
+def _us(time_s: float) -> int:
+    return round(1e6 * time_s)
