@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tagmetry.cli.options import CameraFile, Inverted, Json, Size
+from tagmetry.cli.options import CameraFile, Inverted, Json, Size, check_png
 
 if TYPE_CHECKING:
     from tagmetry.camera import Image
@@ -72,7 +72,8 @@ def locate(  # noqa: PLR0913 (each argument is an option)
 
     if out == "-":
         json, out = True, None
-    _check_picture(picture)
+    if picture is not None:
+        check_png(picture)
     marker_map = _map(map_file, family, size, bundle)
     robot = parse_planar(planar) if planar is not None else None
     task = _location(marker_map, camera, method, robot, odometry, inverted=inverted)
@@ -167,13 +168,6 @@ def _told(found: "Located") -> str:
     if found.rejected:
         told += f", {len(found.rejected)} not used"
     return told
-
-
-def _check_picture(picture: Path | None) -> None:
-    from tagmetry.errors import InputError
-
-    if picture is not None and picture.suffix.lower() != ".png":
-        raise InputError(f"the picture is a PNG; name it like map.png, got {picture.name[-40:]}")
 
 
 def _draw(path: Path, marker_map: "MarkerMap", way: list["Located"]) -> None:

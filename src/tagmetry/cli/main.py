@@ -15,6 +15,7 @@ from tagmetry.cli.arena import app as arena_app
 from tagmetry.cli.bench import bench
 from tagmetry.cli.calibrate import calibrate
 from tagmetry.cli.camera import app as camera_app
+from tagmetry.cli.compare import compare
 from tagmetry.cli.demo import demo
 from tagmetry.cli.detect import detect
 from tagmetry.cli.doctor import doctor
@@ -39,6 +40,7 @@ app.command()(calibrate)
 app.command()(locate)
 app.command()(plan)
 app.add_typer(arena_app, name="arena")
+app.command()(compare)
 app.add_typer(print_app, name="print")
 app.add_typer(camera_app, name="camera")
 app.add_typer(twin_app, name="twin")

@@ -53,3 +53,11 @@ def measurement(
         sizes_m=parse_sizes_m(size) if size is not None else None,
         tracker=Tracker(detector) if track else None,
     )
+
+
+def check_png(picture: Path) -> None:
+    """Refuse the name of a picture that is to be written as another format than PNG."""
+    from tagmetry.errors import InputError
+
+    if picture.suffix.lower() != ".png":
+        raise InputError(f"the picture is a PNG; name it like map.png, got {picture.name[-40:]}")

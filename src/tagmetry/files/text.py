@@ -10,16 +10,16 @@ LARGEST_BYTES = 4 * 1024 * 1024
 DEEPEST_NESTING = 32
 
 
-def read_text(path: Path) -> str:
+def read_text(path: Path, largest_bytes: int = LARGEST_BYTES) -> str:
     """Return the text of a small UTF-8 file, without its byte order mark.
 
     Raises:
         InputError: The file is missing, too large, empty, or not text.
     """
-    content = _bytes_of(path)
-    if len(content) > LARGEST_BYTES:
+    content = _bytes_of(path, largest_bytes)
+    if len(content) > largest_bytes:
         raise InputError(
-            f"{path}: expected a text file of at most {LARGEST_BYTES >> 20} MiB, this one is larger"
+            f"{path}: expected a text file of at most {largest_bytes >> 20} MiB, this one is larger"
         )
     try:
         text = content.decode("utf-8-sig")
@@ -43,10 +43,10 @@ def named_errors(name: str | Path) -> Iterator[None]:
         raise InputError(f"{name}: {error}") from error
 
 
-def _bytes_of(path: Path) -> bytes:
+def _bytes_of(path: Path, largest_bytes: int) -> bytes:
     try:
         with path.open("rb") as file:
-            return file.read(LARGEST_BYTES + 1)
+            return file.read(largest_bytes + 1)
     except FileNotFoundError as error:
         raise InputError(f"{path}: there is no such file") from error
     except IsADirectoryError as error:

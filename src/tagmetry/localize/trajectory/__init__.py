@@ -1,0 +1,17 @@
+"""Poses over time, and how far two such trajectories are apart."""
+
+from tagmetry.localize.trajectory.alignment import Alignment, path_alignment
+from tagmetry.localize.trajectory.comparison import Comparison, Spread, compare
+from tagmetry.localize.trajectory.matching import Matched, matched
+from tagmetry.localize.trajectory.trajectory import Trajectory
+
+__all__ = [
+    "Alignment",
+    "Comparison",
+    "Matched",
+    "Spread",
+    "Trajectory",
+    "compare",
+    "matched",
+    "path_alignment",
+]
