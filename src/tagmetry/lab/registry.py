@@ -13,6 +13,9 @@ _HOMES = {
     "seed002-zones": "seed002_zones",
     "seed003-calibration": "seed003_calibration",
     "seed003-pose": "seed003_pose",
+    "seed004-distance": "seed004_distance",
+    "seed004-backlight": "seed004_backlight",
+    "seed004-repeat": "seed004_repeat",
     "detector-limits": "detector_limits",
 }
 

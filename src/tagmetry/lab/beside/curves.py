@@ -27,6 +27,8 @@ _ERRORS = {
     "angle_deg": ("angular error, degrees", 1.0),
     "xy_m": ("error in XY, mm", 1000.0),
     "abs_z_m": ("error in Z, mm", 1000.0),
+    "place_m": ("error of the place, mm", 1000.0),
+    "heading_deg": ("error of the heading, degrees", 1.0),
 }
 
 
@@ -58,7 +60,11 @@ class Plot:
 
 
 def curve_figure(
-    number: int, title: str, curves: Sequence[Curve], plots: Sequence[Plot]
+    number: int,
+    title: str,
+    curves: Sequence[Curve],
+    plots: Sequence[Plot],
+    seed: str = "seed002",
 ) -> ReportFigure:
     """Return curves of the mean error with its 95 % confidence band, side by side."""
 
@@ -78,7 +84,7 @@ def curve_figure(
 
     stated = any(curve.stated for curve in curves)
     told = "Mean and its 95 % confidence band." + (" Dotted: what the paper says." * stated)
-    return ReportFigure(f"seed002_figure{number}", f"Figure {number}: {title}", told, draw)
+    return ReportFigure(f"{seed}_figure{number}", f"Figure {number}: {title}", told, draw)
 
 
 def _draw_curve(axes: "Axes", curve: Curve, plot: Plot) -> None:

@@ -1,6 +1,6 @@
 """Repeated measurements: picked by their settings, and their mean with a confidence interval."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -9,7 +9,10 @@ import numpy as np
 from scipy.stats import t as student
 
 from tagmetry.geometry import Array
-from tagmetry.lab.rows import Localization
+from tagmetry.lab.rows import Localization, RobotPlace
+
+Located = Localization | RobotPlace
+_OURS = ("planar", "joint", "covariance")
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,13 @@ def found_of(mean: Mean) -> str:
     return f"{mean.count} of {mean.count + mean.missing}"
 
 
+def told_of(mean: Mean, scale: float, unit: str) -> str:
+    """Return a mean with its interval in words, and how many pictures gave no value."""
+    lost = f"; {mean.missing} of {mean.missing + mean.count} not localized" if mean.missing else ""
+    known = f"{rounded(scale * mean.mean):g} ± {rounded(scale * mean.half):g}"
+    return f"{known} {unit}{lost}".strip()
+
+
 def difference(more: Array, less: Array) -> Mean:
     """Return the mean of `more` less that of `less`, with Welch's confidence interval."""
     a, b = more[np.isfinite(more)], less[np.isfinite(less)]
@@ -75,7 +85,7 @@ def difference(more: Array, less: Array) -> Mean:
 class Sample:
     """Errors of localization, some of all that were measured."""
 
-    rows: tuple[Localization, ...]
+    rows: tuple[Located, ...]
 
     def where(self, **settings: Any) -> "Sample":  # noqa: ANN401 (what a field may be)
         """Return the rows whose fields are so."""
@@ -86,7 +96,7 @@ class Sample:
 
     def by(self, field: str) -> "dict[float, Sample]":
         """Return the rows by the values of a field, in rising order."""
-        parts: dict[float, list[Localization]] = {}
+        parts: dict[float, list[Located]] = {}
         for row in self.rows:
             parts.setdefault(getattr(row, field), []).append(row)
         return {value: Sample(tuple(parts[value])) for value in sorted(parts)}
@@ -96,11 +106,9 @@ class Sample:
         return Sample(tuple(row for row in self.rows if from_m <= row.distance_m <= to_m))
 
     def values(self, field: str) -> Array:
-        """Return a field of all rows; `angle_deg` and `abs_z_m` are those that people want."""
-        if field == "angle_deg":
-            return np.degrees(self.values("angle_rad"))
-        if field == "abs_z_m":
-            return np.abs(self.values("z_m"))
+        """Return a field of all rows, or one of those that people want instead."""
+        if field in _WANTED:
+            return _WANTED[field](self)
         return np.array([getattr(row, field) for row in self.rows], dtype=np.float64)
 
     def mean(self, field: str) -> Mean:
@@ -114,15 +122,24 @@ class Sample:
 
     @property
     def ours(self) -> "Sample":
-        """The rows of tagmetry's best method: the joint one, where there is one."""
-        return self.where(method="joint" if "joint" in self.methods else "covariance")
+        """The rows of tagmetry's best method: the first of the planar, the joint and the fused."""
+        return self.where(method=next((one for one in _OURS if one in self.methods), _OURS[-1]))
 
     @property
     def paper(self) -> "Sample":
-        """The rows of the paper's method with its own corners."""
-        return self.where(method="paper, 1 / distance")
+        """The rows of the paper's method with its own corners, which comes first."""
+        named = [one for one in self.methods if one.startswith("paper")]
+        return self.where(method=named[0] if named else "")
 
 
-def sample(rows: Sequence[Localization]) -> Sample:
+_WANTED: dict[str, Callable[[Sample], Array]] = {
+    "angle_deg": lambda rows: np.degrees(rows.values("angle_rad")),
+    "abs_z_m": lambda rows: np.abs(rows.values("z_m")),
+    "place_m": lambda rows: np.hypot(rows.values("x_m"), rows.values("y_m")),
+    "heading_deg": lambda rows: np.abs(np.degrees(rows.values("heading_rad"))),
+}
+
+
+def sample(rows: Sequence[Located]) -> Sample:
     """Return rows as a sample."""
     return Sample(tuple(rows))

@@ -7,7 +7,16 @@ import numpy as np
 
 from tagmetry.geometry import Array
 from tagmetry.lab.beside.curves import Curve, Plot, curve_figure, surface_figure
-from tagmetry.lab.beside.sample import Mean, Sample, difference, found_of, mean_of, rounded, sample
+from tagmetry.lab.beside.sample import (
+    Mean,
+    Sample,
+    difference,
+    found_of,
+    mean_of,
+    rounded,
+    sample,
+    told_of,
+)
 from tagmetry.lab.beside.sights import sights_figure
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed002 import Statement, seed002
@@ -70,7 +79,7 @@ def _checks(exact: Sample, stated: Statement) -> Iterator[Check]:
     yield Check(
         f"{stated.layout}: the same taken as radians",
         f"at most {stated.at_most} rad = {in_radians:.3g} degrees",
-        _told(worst, 1.0, "degrees"),
+        told_of(worst, 1.0, "degrees"),
         _reaches(worst, in_radians),
     )
 
@@ -80,7 +89,7 @@ def _length_check(ours: Sample, stated: Statement) -> Check:
     return Check(
         f"{stated.layout}: {stated.words}",
         f"at most {1000 * stated.at_most:.0f} mm",
-        _told(worst, 1000.0, "mm"),
+        told_of(worst, 1000.0, "mm"),
         _reaches(worst, stated.at_most),
     )
 
@@ -88,7 +97,7 @@ def _length_check(ours: Sample, stated: Statement) -> Check:
 def _angle_check(ours: Sample, stated: Statement, worst: Mean) -> Check:
     """Return the check in degrees; nothing is asked of it where the corners cannot tell so much."""
     holds: bool | None = _reaches(worst, stated.at_most)
-    told = _told(worst, 1.0, "degrees")
+    told = told_of(worst, 1.0, "degrees")
     possible = _MEAN_OF_NORMAL * np.degrees(
         max(one.mean("sd_angle_rad").mean for one in ours.by("distance_m").values())
     )
@@ -108,12 +117,6 @@ def _worst(rows: Sample, quantity: str) -> Mean:
 
 def _reaches(mean: Mean, bound: float) -> bool:
     return bool(mean.missing == 0 and mean.high <= bound)
-
-
-def _told(mean: Mean, scale: float, unit: str) -> str:
-    lost = f"; {mean.missing} of {mean.missing + mean.count} not localized" if mean.missing else ""
-    known = f"{rounded(scale * mean.mean):g} ± {rounded(scale * mean.half):g}"
-    return f"{known} {unit}{lost}".strip()
 
 
 @dataclass(frozen=True)
@@ -145,7 +148,7 @@ def _trend_check(trend: Trend) -> Check:
     return Check(
         f"trend: {trend.told}",
         "a difference above 0, with 95 % confidence",
-        f"{_told(mean, 1000.0, 'mm')} of {rounded(1000 * trend.of):g} mm",
+        f"{told_of(mean, 1000.0, 'mm')} of {rounded(1000 * trend.of):g} mm",
         bool(mean.low > 0),
     )
 
@@ -195,7 +198,7 @@ def _by_method(exact: Sample) -> ReportTable:
 
 def _method_cell(exact: Sample, method: str, layout: str) -> str:
     mean = exact.where(method=method, layout=layout).within(4, 6).mean("radial_m")
-    return _told(mean, 1000.0, "")
+    return told_of(mean, 1000.0, "")
 
 
 def _consistency(everything: Sample) -> ReportTable:

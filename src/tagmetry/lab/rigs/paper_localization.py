@@ -49,13 +49,13 @@ def fused_place(
     markers = [one for one in marker_map.markers if one.id in corners_px]
     if not markers:
         return None
-    poses = [_pose(corners_px[one.id], camera, one.size_m) for one in markers]
+    poses = [solved_pose(corners_px[one.id], camera, one.size_m) for one in markers]
     cameras = [one.T_world_marker * T.inv() for one, T in zip(markers, poses, strict=True)]
     weights = np.array([float(np.linalg.norm(T.translation)) ** -power for T in poses])
     return _average(cameras, weights / weights.sum())
 
 
-def _pose(corners_px: Array, camera: Camera, size_m: float) -> RigidTransform:
+def solved_pose(corners_px: Array, camera: Camera, size_m: float) -> RigidTransform:
     """Return T_camera_marker by OpenCV's iterative solvePnP."""
     lens = np.array(camera.lens.coefficients)
     _, turn, place_m = cv2.solvePnP(marker_corners_m(size_m), corners_px, camera.matrix, lens)
