@@ -48,7 +48,7 @@ def test_one_common_pose_has_no_relative_error(ways, capsys):
     ("options", "why"),
     [
         (["--picture", "a.svg"], "the picture is a PNG"),
-        (["--align", "scale"], "'scale' is not one of 'none', 'path'"),
+        (["--align", "scale"], "'scale' is not one of 'none', 'path', 'rig'"),
         (["--gap", "-1"], "--gap"),
     ],
 )

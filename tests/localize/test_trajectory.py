@@ -6,7 +6,7 @@ import pytest
 from tagmetry.errors import InputError
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.transforms import Rotation
-from tagmetry.localize.trajectory import Spread, Trajectory, compare, matched, path_alignment
+from tagmetry.localize.trajectory import Spread, Trajectory, alignment, compare, matched
 
 RNG = np.random.default_rng(0)
 TIMES_S = np.arange(40) * 0.1
@@ -16,8 +16,8 @@ ELSEWHERE = RigidTransform.from_components([3.0, -2.0, 0.7], Rotation.from_rotve
 def winding(times_s=TIMES_S):
     """Return a way that winds through space and turns as it goes."""
     places = np.stack([np.sin(times_s), 0.4 * times_s, np.cos(2 * times_s)], axis=1)
-    turns = Rotation.from_rotvec(np.stack([0.3 * times_s, 0 * times_s, -0.5 * times_s], axis=1))
-    return Trajectory(times_s, RigidTransform.from_components(places, turns))
+    turns = np.stack([0.3 * times_s, 0.4 * np.sin(2 * times_s), -0.5 * times_s], axis=1)
+    return Trajectory(times_s, RigidTransform.from_components(places, Rotation.from_rotvec(turns)))
 
 
 def errors_of(found):
@@ -34,7 +34,7 @@ def test_another_world_is_aligned_away_and_found():
     for errors in errors_of(found):
         np.testing.assert_allclose(errors, 0, atol=1e-7)
     np.testing.assert_allclose(
-        found.T_true_estimated.as_matrix(), ELSEWHERE.inv().as_matrix(), atol=1e-9
+        found.by.T_true_estimated.as_matrix(), ELSEWHERE.inv().as_matrix(), atol=1e-9
     )
 
 
@@ -42,7 +42,7 @@ def test_the_alignment_is_the_best_there_is():
     noisy = winding().moved(ELSEWHERE)
     shaken = noisy.poses.translation + RNG.normal(0, 0.05, (len(TIMES_S), 3))
     noisy = Trajectory(TIMES_S, RigidTransform.from_components(shaken, noisy.poses.rotation))
-    best = path_alignment(matched(noisy, winding()))
+    best = alignment(matched(noisy, winding()), "path").T_true_estimated
     cost = np.sum((best.apply(shaken) - winding().positions_m) ** 2)
     for change in RNG.normal(0, 1e-3, (30, 6)):
         nudge = RigidTransform.from_components(change[:3], Rotation.from_rotvec(change[3:]))
@@ -55,7 +55,7 @@ def test_scipy_turns_the_worlds_alike():
     true = winding().positions_m
     expected, _ = Rotation.align_vectors(true - true.mean(axis=0), noisy - noisy.mean(axis=0))
     poses = RigidTransform.from_components(noisy, winding().poses.rotation)
-    found = path_alignment(matched(Trajectory(TIMES_S, poses), winding()))
+    found = alignment(matched(Trajectory(TIMES_S, poses), winding()), "path").T_true_estimated
     assert (found.rotation * expected.inv()).magnitude() < 1e-7
 
 
@@ -63,7 +63,7 @@ def test_a_flat_way_is_aligned_without_a_mirror_image():
     flat = winding().positions_m * [1.0, 1.0, 0.0]
     way = Trajectory(TIMES_S, RigidTransform.from_components(flat, winding().poses.rotation))
     found = compare(way.moved(ELSEWHERE), way, align="path")
-    assert np.linalg.det(found.T_true_estimated.rotation.as_matrix()) == pytest.approx(1)
+    assert np.linalg.det(found.by.T_true_estimated.rotation.as_matrix()) == pytest.approx(1)
     np.testing.assert_allclose(found.absolute_m, 0, atol=1e-7)
 
 
@@ -122,6 +122,36 @@ def test_single_poses_at_one_time_can_be_compared():
     assert np.isnan(Spread.of(found.relative_m).rms)
 
 
+OFFSET = RigidTransform.from_components([0.1, 0.04, -0.2], Rotation.from_rotvec([1.1, 0.2, -0.7]))
+
+
+def test_what_sits_on_a_rig_is_compared_with_the_rig():
+    found = compare(winding().moved(ELSEWHERE).of_part(OFFSET), winding(), align="rig")
+    for errors in errors_of(found):
+        np.testing.assert_allclose(errors, 0, atol=1e-6)
+    np.testing.assert_allclose(
+        found.by.T_thing_part.as_matrix(), OFFSET.inv().as_matrix(), atol=1e-9
+    )
+    path = compare(winding().moved(ELSEWHERE).of_part(OFFSET), winding(), align="path")
+    assert path.absolute_m.max() > 0.01  # the lever of the offset
+    assert np.median(path.absolute_rad) > 0.5
+
+
+def test_a_rig_s_alignment_stands_noise():
+    noise = RNG.normal(0, [0.002] * 3 + [0.003] * 3, (len(TIMES_S), 6))
+    shaken = RigidTransform.from_components(noise[:, :3], Rotation.from_rotvec(noise[:, 3:]))
+    poses = winding().moved(ELSEWHERE).of_part(OFFSET).poses * shaken
+    found = compare(Trajectory(TIMES_S, poses), winding(), align="rig")
+    assert Spread.of(found.absolute_rad).rms == pytest.approx(0.003 * np.sqrt(3), rel=0.15)
+    assert Spread.of(found.absolute_m).rms < 0.006
+
+
+def level_way():
+    """Return a way that turns about one axis only."""
+    turns = Rotation.from_rotvec(np.outer(TIMES_S, [0, 0, 0.4]))
+    return Trajectory(TIMES_S, RigidTransform.from_components(winding().positions_m, turns))
+
+
 def straight_way():
     places = np.outer(TIMES_S, [1.0, 2.0, 3.0])
     return Trajectory(TIMES_S, RigidTransform.from_components(places, winding().poses.rotation))
@@ -136,7 +166,8 @@ def straight_way():
         (lambda: Trajectory(np.array([0, np.nan]), RigidTransform.identity(2)), "finite"),
         (lambda: compare(winding(), winding(TIMES_S + 99)), "the second from 99.000 to 102.900 s"),
         (lambda: compare(straight_way(), straight_way(), align="path"), "too straight"),
-        (lambda: compare(winding(), winding(), align="scale"), "align must be none or path"),
+        (lambda: compare(level_way(), level_way(), align="rig"), "about one axis only"),
+        (lambda: compare(winding(), winding(), align="scale"), "align must be none, path or rig"),
         (lambda: compare(winding(), winding(), step_s=-1), "step_s must be finite"),
         (lambda: compare(winding(), winding(), gap_s=np.nan), "gap_s must be finite"),
     ],

@@ -16,10 +16,11 @@ def compare(
     estimated: Annotated[Path, typer.Argument(help="Trajectory that is judged: .tum.")],
     true: Annotated[Path, typer.Argument(help="Trajectory that it is judged by: .tum.")],
     align: Annotated[
-        Literal["none", "path"],
+        Literal["none", "path", "rig"],
         typer.Option(
-            help="none: both are of one world. path: turn and shift the first so that the ways lie "
-            "on one another (Horn, without a scale)."
+            help="none: both are of one thing in one world. path: turn and shift the first so that "
+            "the ways lie on one another (Horn, without a scale). rig: of two things fixed to each "
+            "other, such as a camera and what motion capture sees of it."
         ),
     ] = "none",
     gap: Annotated[

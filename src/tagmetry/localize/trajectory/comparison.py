@@ -16,7 +16,7 @@ import numpy as np
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.arrays import IntArray
-from tagmetry.localize.trajectory.alignment import Alignment, path_alignment
+from tagmetry.localize.trajectory.alignment import Alignment, AlignmentName, alignment
 from tagmetry.localize.trajectory.matching import Matched, matched
 from tagmetry.localize.trajectory.trajectory import Trajectory
 
@@ -52,7 +52,7 @@ class Comparison:
 
     Attributes:
         both: The two at the same times; the estimated one is aligned.
-        T_true_estimated: What it was aligned by; the identity without an alignment.
+        by: What it was aligned by.
         absolute_m: Shifts of the n poses, shape (n,).
         absolute_rad: Their angles, shape (n,).
         relative_m: Shifts over the m steps, shape (m,).
@@ -61,7 +61,7 @@ class Comparison:
     """
 
     both: Matched
-    T_true_estimated: RigidTransform
+    by: Alignment
     absolute_m: Array
     absolute_rad: Array
     relative_m: Array
@@ -73,7 +73,7 @@ def compare(
     estimated: Trajectory,
     true: Trajectory,
     *,
-    align: Alignment = "none",
+    align: AlignmentName = "none",
     gap_s: float = 0.1,
     step_s: float = 0.0,
 ) -> Comparison:
@@ -82,26 +82,25 @@ def compare(
     Args:
         estimated: What is judged.
         true: What it is judged by; interpolated at the other's times.
-        align: `path` turns and shifts the estimated world so that the ways lie on one another;
-            `none` for poses in one world, as those of a marker map are.
+        align: `none` for poses of one thing in one world, as those in a marker map are; `path`
+            turns and shifts the estimated world so that the ways lie on one another; `rig` does so
+            for two things that are fixed to each other.
         gap_s: Widest gap between two true poses in which they are interpolated.
         step_s: Over which time the relative error is taken; 0 from each pose to the next.
 
     Raises:
-        InputError: No common time, or a way that is too straight to be aligned.
+        InputError: No common time, or a way that does not tell the alignment.
     """
-    if align not in ("none", "path"):
-        raise InputError(f"align must be none or path, got {align!r}")
     if not 0 <= step_s < np.inf:
         raise InputError(f"step_s must be finite and not negative, got {step_s}")
     both = matched(estimated, true, gap_s)
-    T_true_estimated = path_alignment(both) if align == "path" else RigidTransform.identity()
-    both = Matched(both.estimated.moved(T_true_estimated), both.true, both.unmatched)
+    by = alignment(both, align)
+    both = Matched(by.of(both.estimated), both.true, both.unmatched)
     own, right = both.estimated.poses, both.true.poses
     first, last = _steps(both.true.times_s, step_s)
     step, right_step = own[first].inv() * own[last], right[first].inv() * right[last]
     absolute, relative = _sizes(right.inv() * own), _sizes(right_step.inv() * step)
-    return Comparison(both, T_true_estimated, *absolute, *relative, step_s)
+    return Comparison(both, by, *absolute, *relative, step_s)
 
 
 def _steps(times_s: Array, step_s: float) -> tuple[IntArray, IntArray]:
