@@ -58,6 +58,7 @@ WRITTEN = {
     "calibrate.sh": ("webcam.yaml", "webcam.html", "tables/camera.csv"),
     "camera_files.py": ("half.yaml", "middle.yaml"),
     "camera_files.sh": ("half.yaml",),
+    "compare.sh": ("errors.png",),
     "detect.sh": ("overlay.png", "markers.jsonl"),
     "detect_drive.sh": ("drive.mp4", "drive.jsonl"),
     "detect_only.sh": ("overlay.png", "markers.jsonl"),
@@ -76,6 +77,7 @@ SAID = {
     "bank.py": "at focus 53: fx 1005.",
     "calibrate.py": "8 views leave projections uncertain",
     "calibrate.sh": "8 views leave projections uncertain",
+    "compare.sh": "4 poses over 3.000 m",
     "board_pose.py": "6 markers, board at",
     "detect.py": "tag36h11 7 ",
     "doctor.sh": "tag36h11",
@@ -95,6 +97,7 @@ SAID = {
 AFTER = {"read_results.py": "detect.sh", "floor_positions.py": "detect_video.sh"}
 NEEDS = {
     "calibrate.sh": ["matplotlib"],
+    "compare.sh": ["matplotlib"],
     "detect_drive.sh": ["av"],
     "detect_video.sh": ["av", "pyarrow"],
     "floor_positions.py": ["av", "pyarrow"],
@@ -125,6 +128,13 @@ def write_boards(folder: Path) -> None:
         scene = Scene((board_thing(board, path),))
         pixels = photographed(scene, shot, np.random.default_rng(number))
         cv2.imwrite(str(folder / f"{number}.png"), pixels)
+
+
+def write_ways(folder: Path) -> None:
+    """Write a robot's way as it is and as it was measured."""
+    for name, off_m in (("true.tum", 0.0), ("where.tum", 0.01)):
+        lines = [f"{second} {second} {off_m} 0.3 0 0 0 1" for second in range(4)]
+        (folder / name).write_text("\n".join(lines), "utf-8")
 
 
 def write_video(path: Path, image: GreyPixels) -> None:
@@ -187,6 +197,7 @@ def test_example_runs(name: str, shelf: Path, tmp_path: Path) -> None:
     shutil.copy(SCENES / "desk.yaml", tmp_path)
     shutil.copy(MAPS / "hall.yaml", tmp_path)
     shutil.copytree(shelf / "boards", tmp_path / "boards")
+    write_ways(tmp_path)
     if "av" in NEEDS.get(name, []):
         write_video(tmp_path / "video.mp4", photograph(FLOOR, tilt_deg=10, depth_m=1.2))
     if name in AFTER:

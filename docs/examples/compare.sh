@@ -1,0 +1,1 @@
+tagmetry compare where.tum true.tum --gap 1 --picture errors.png
