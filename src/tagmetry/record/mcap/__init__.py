@@ -1,5 +1,6 @@
 """A whole run in one MCAP file: images, detections, states and packets; replayed and exported."""
 
+from tagmetry.record.mcap.export import export_recording
 from tagmetry.record.mcap.packets import PacketRecord
 from tagmetry.record.mcap.pieces import Entry
 from tagmetry.record.mcap.reading import DamagedRecordingWarning, read_entries
@@ -17,5 +18,6 @@ __all__ = [
     "PacketRecord",
     "Recorder",
     "Replay",
+    "export_recording",
     "read_entries",
 ]

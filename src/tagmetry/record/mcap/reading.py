@@ -8,13 +8,14 @@ import io
 import struct
 import warnings
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
 from tagmetry.errors import InputError
 from tagmetry.record.mcap.pieces import MAGIC, Entry, require_mcap
 
+OnDamage = Callable[[str], None]
 LARGEST_PIECE_BYTES = 256 * 2**20
 _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _DATA_END = 0x03, 0x04, 0x05, 0x06, 0x0F
 _RECORD = struct.Struct("<BQ")
@@ -26,12 +27,20 @@ class DamagedRecordingWarning(UserWarning):
     """A part of a recording could not be read; the rest was."""
 
 
-def read_entries(path: str | Path, *topics: str) -> Iterator[Entry]:
+def warn_of_damage(text: str) -> None:
+    """Warn that a part of a recording could not be read."""
+    warnings.warn(text, DamagedRecordingWarning, stacklevel=2)
+
+
+def read_entries(
+    path: str | Path, *topics: str, on_damage: OnDamage = warn_of_damage
+) -> Iterator[Entry]:
     """Give the entries of a recording in the order in which they were written.
 
     Args:
         path: The file.
         topics: Only these; all where none is named.
+        on_damage: Told of what could not be read; by default a `DamagedRecordingWarning`.
 
     Raises:
         InputError: It cannot be read, or is no MCAP file.
@@ -42,7 +51,7 @@ def read_entries(path: str | Path, *topics: str) -> Iterator[Entry]:
         with Path(path).open("rb") as file:
             if file.read(len(MAGIC)) != MAGIC:
                 raise InputError(f"{path}: expected an MCAP file, found something else")
-            for piece in _pieces(file, str(path)):
+            for piece in _pieces(file, str(path), on_damage):
                 for entry in _entries(piece):
                     if not topics or entry.topic in topics:
                         yield entry
@@ -50,7 +59,7 @@ def read_entries(path: str | Path, *topics: str) -> Iterator[Entry]:
         raise InputError(f"{path}: {error.strerror or error}") from error
 
 
-def _pieces(file: BinaryIO, path: str) -> Iterator[bytes]:
+def _pieces(file: BinaryIO, path: str, on_damage: OnDamage) -> Iterator[bytes]:
     """Give the content of every whole piece."""
     for kind, body in _records(file):
         if kind == _DATA_END:
@@ -58,10 +67,12 @@ def _pieces(file: BinaryIO, path: str) -> Iterator[bytes]:
         if kind == _CHUNK:
             content = _unpacked(body)
             if content is None:
-                _warn(f"{path}: passed over a piece that is damaged")
+                on_damage(f"{path}: passed over a piece that is damaged")
             else:
                 yield content
-    _warn(f"{path}: its end is missing, cut off or damaged; all whole pieces before it are read")
+    on_damage(
+        f"{path}: its end is missing, cut off or damaged; all whole pieces before it are read"
+    )
 
 
 def _records(file: BinaryIO) -> Iterator[tuple[int, bytes]]:
@@ -113,7 +124,3 @@ def _entries(piece: bytes) -> Iterator[Entry]:
             number, _, logged_ns, stamped_ns = _MESSAGE_HEAD.unpack_from(body)
             content = body[_MESSAGE_HEAD.size :]
             yield Entry(topics.get(number, ""), logged_ns, stamped_ns, content)
-
-
-def _warn(text: str) -> None:
-    warnings.warn(text, DamagedRecordingWarning, stacklevel=2)

@@ -1,6 +1,5 @@
 """A recording as a source of images: the same images with the same stamps, once more."""
 
-import warnings
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -9,7 +8,7 @@ from tagmetry.camera import Camera, Image
 from tagmetry.errors import InputError
 from tagmetry.record.mcap.images import parse_image
 from tagmetry.record.mcap.pieces import MAGIC, require_mcap
-from tagmetry.record.mcap.reading import DamagedRecordingWarning, read_entries
+from tagmetry.record.mcap.reading import read_entries, warn_of_damage
 from tagmetry.record.mcap.topics import IMAGES
 from tagmetry.sources.closing import ClosingSource
 from tagmetry.sources.fit import checked_fit
@@ -53,8 +52,7 @@ class Replay(ClosingSource):
             try:
                 image = replace(parse_image(entry.content), camera=self._camera)
             except InputError as error:
-                text = f"{self.name}: passed over an image: {error}"
-                warnings.warn(text, DamagedRecordingWarning, stacklevel=2)
+                warn_of_damage(f"{self.name}: passed over an image: {error}")
                 continue
             yield checked_fit(image)
 
