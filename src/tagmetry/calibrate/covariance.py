@@ -43,6 +43,8 @@ from tagmetry.calibrate.sightings import Sightings
 from tagmetry.calibrate.solve import shape_prior
 from tagmetry.geometry import Array
 
+_OPEN = 1e-9  # share of a number's information that its correlation with others leaves
+
 
 @dataclass(frozen=True, eq=False)
 class Covariances:
@@ -71,10 +73,10 @@ def covariances(bundle: Bundle, seen: Sightings, freedom: Freedom) -> Covariance
     linear = linearise(bundle, seen, freedom)
     information, _ = eliminate_poses(normal_equations(linear, freedom))
     information += np.diag(_prior(bundle, seen, freedom))
-    scale = np.sqrt(np.diag(information))
-    inverse = np.linalg.inv(information / np.outer(scale, scale)) / np.outer(scale, scale)
-    c = freedom.count
-    root = np.linalg.cholesky(inverse[:c, :c])
+    scale, c = np.sqrt(np.diag(information)), freedom.count
+    alike = information / np.outer(scale, scale)
+    inverse = np.linalg.inv(alike) / np.outer(scale, scale)
+    root = _root_of_covariance(alike, c) / scale[:c, None]
     told = [_unbiased(own, g, inverse, root) for own, g in _by_view(linear, seen, freedom)]
     scores, parts = (np.array(rows) for rows in zip(*told, strict=True))
     s2 = _unit_variance(linear, seen, freedom)
@@ -129,6 +131,23 @@ def _hotelling(n: int, c: int) -> float:
     freedom = max(n - 1, c + 1)
     limit = c * freedom / (freedom - c + 1) * special.fdtri(c, freedom - c + 1, 0.95)
     return float(limit / special.chdtri(c, 0.05))
+
+
+def _root_of_covariance(information: Array, c: int) -> Array:
+    """Return R with R R^T the covariance (c, c) of the first numbers, the others unknown too.
+
+    It comes from the information itself: the inverse of one that is nearly open has lost the
+    directions that are known best.
+
+    Raises:
+        LinAlgError: The information leaves a direction of these numbers open.
+    """
+    order = np.roll(np.arange(len(information)), -c)
+    own = np.linalg.cholesky(information[np.ix_(order, order)])[-c:, -c:]
+    sizes = np.linalg.norm(own, axis=1, keepdims=True)
+    if np.linalg.svd(own / sizes, compute_uv=False)[-1] ** 2 < _OPEN:
+        raise np.linalg.LinAlgError("a direction of the camera's numbers is open")
+    return np.asarray(np.linalg.inv(own).T)
 
 
 def _by_view(linear: Linear, seen: Sightings, freedom: Freedom) -> Iterator[tuple[Array, Array]]:

@@ -198,3 +198,17 @@ def test_the_bias_of_an_ellipse_s_centre_is_that_of_its_rim() -> None:
     found = perspective_bias_px(disc, H)[0]
     assert np.linalg.norm(found) > 0.1
     np.testing.assert_allclose(found, expected, atol=2e-3)
+
+
+def test_corners_share_the_noise_that_a_few_pixels_cannot_tell() -> None:
+    shown = picture(BOARD, spacing_px=20.0, tilt_deg=0.0, noise=3.0)
+    pixels = shown.pixels.copy()
+    x, y = np.rint(shown.truth_px[30]).astype(int)
+    dirt = np.random.default_rng(1).normal(0, 25, (15, 15))
+    around = np.s_[y - 7 : y + 8, x - 7 : x + 8]
+    pixels[around] = np.clip(pixels[around] + dirt, 0, 255).astype(np.uint8)
+    fitted = fit_saddles(pixels, shown.truth_px, *steps(shown.truth_px), bends=np.zeros((54, 2)))
+    clean = np.arange(54) != 30
+    assert fitted.noise[clean].std() > 0.05 * fitted.noise[clean].mean()
+    assert fitted.sd_px[clean].std() < 0.02 * fitted.sd_px[clean].mean()
+    assert fitted.sd_px[30] > 3 * fitted.sd_px[clean].mean()
