@@ -11,7 +11,8 @@ from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import Chessboard
-from tagmetry.pipeline.calibration import CalibrationRun, Request, look, run_calibration
+from tagmetry.pipeline.board_pictures import look
+from tagmetry.pipeline.calibration import CalibrationRun, Request, run_calibration
 from tagmetry.record.calibration_report.figures import every_figure
 from tagmetry.twin import Optics, Scene, Shot, photograph
 from tagmetry.twin.optics import Sensor
