@@ -8,8 +8,8 @@ import numpy as np
 from tagmetry.arena import OverheadView, Robot
 from tagmetry.detect import Detection
 from tagmetry.geometry import RigidTransform
-from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers.bodies import marker_corners_m
+from tagmetry.twin.robots.overhead import T_robot_marker
 
 
 class Eye(Protocol):
@@ -60,15 +60,6 @@ class CornerEye:
         robot = self._robots[number]
         covariance = self._noise_px**2 * np.eye(8)
         return Detection(robot.family, robot.marker_id, corners_px, covariance, 0, 1.0)
-
-
-def T_robot_marker(robot: Robot) -> RigidTransform:  # noqa: N802 - a frame's name
-    """Return where a robot's marker lies on it; its top is to the front at a turn of 0."""
-    mount = robot.mount
-    return RigidTransform.from_components(
-        [mount.forward_m, mount.left_m, mount.height_m],
-        Rotation.from_euler("z", mount.turn_rad - np.pi / 2),
-    )
 
 
 def _corners_m(robot: Robot) -> np.ndarray:

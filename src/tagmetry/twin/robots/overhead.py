@@ -1,0 +1,202 @@
+"""What a ceiling camera sees of robots, made quickly: some milliseconds a robot.
+
+The floor stands still, so its exact light is taken once (`twin.rendering.exposed`). Each robot is
+a dark box with a marker on its roof: its outline is filled and its roof mapped on a grid of 6 x 6
+points a pixel, by the homography of the roof's four corners, which are projected through the lens.
+Light and cover are averaged over the pixels, spread by the lens, and laid over the floor. What is
+left out: the lens's bend within a marker, shadows, the robots' motion during the exposure, and that
+the floor's own grain is spread together with the robot's edge.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+
+from tagmetry.arena.robot import Robot
+from tagmetry.geometry import Array, RigidTransform
+from tagmetry.geometry.arrays import AnyPixels, FloatImage
+from tagmetry.geometry.transforms import Rotation
+from tagmetry.markers import MountedMarker
+from tagmetry.twin.optics.sensor import developed
+from tagmetry.twin.optics.vignetting import gain_map
+from tagmetry.twin.rendering import Shot, exposed
+from tagmetry.twin.rendering.box import Box
+from tagmetry.twin.scenes import Scene, Sheet, Thing, marker_sheet
+from tagmetry.twin.scenes.furniture import box
+
+_FINE = 6
+_REACH_PX = 5  # around a robot: its light is spread by the lens
+_BODY = 0.12  # reflectance of the robots' bodies
+_UP = np.array([0.0, 0.0, 1.0])
+_SUBPIXEL_BITS = 8  # of the outline's points
+
+
+@dataclass(frozen=True, eq=False)
+class _Roof:
+    """What is to be seen of a robot.
+
+    Attributes:
+        reflectance: Of the roof's cells, a margin of paper around, shape (n, n).
+        to_texel: From metres on the roof's sheet to cells, shape (3, 3).
+        corners_m: Of the roof's paper, in the robot's frame, shape (4, 3).
+        body_m: Corners of the body, in the robot's frame, shape (m, 3).
+    """
+
+    reflectance: FloatImage
+    to_texel: Array
+    corners_m: Array
+    body_m: Array
+
+
+class OverheadPictures:
+    """Takes pictures of robots on a floor."""
+
+    def __init__(self, floor: Scene, robots: Sequence[Robot], shot: Shot) -> None:
+        """Take the empty floor.
+
+        Args:
+            floor: All that does not move.
+            robots: What lies on their roofs, and where.
+            shot: The camera at its place; its veil is left out.
+        """
+        self._shot = replace(shot, optics=replace(shot.optics, veil=0.0))
+        self._light = floor.light
+        self._roofs = [_roof(robot) for robot in robots]
+        self._empty = exposed(floor, self._shot)
+        self._gain = gain_map(shot.camera, shot.optics.vignetting)
+        self._T_camera_world = shot.path.at(np.zeros(1))[0].inv()
+
+    def take(self, Ts_world_robot: RigidTransform, rng: np.random.Generator) -> AnyPixels:
+        """Return a picture, shape (height, width), uint8.
+
+        Args:
+            Ts_world_robot: Where the robots are.
+            rng: Where the noise comes from.
+        """
+        light = self._empty.copy()
+        for roof, T_world_robot in zip(self._roofs, Ts_world_robot, strict=True):
+            self._lay(light, roof, T_world_robot)
+        return developed(light * np.float32(self._shot.brightness), self._shot.sensor, rng)
+
+    def _lay(self, light: FloatImage, roof: _Roof, T_world_robot: RigidTransform) -> None:
+        """Lay a robot over what there is."""
+        body_px = self._seen_px(roof.body_m, T_world_robot)
+        corners_px = self._seen_px(roof.corners_m, T_world_robot)
+        if body_px is None or corners_px is None:
+            return
+        window = self._window(np.concatenate([body_px, corners_px]))
+        if not window:
+            return
+        on_roof = self._light.on(T_world_robot.apply(roof.corners_m.mean(axis=0)), _UP)
+        radiance, cover = _painted(roof, body_px, corners_px, window)
+        gain = self._gain[window.pixels] * np.float32(on_roof)
+        under = light[window.pixels]
+        sigma_px = self._shot.optics.blur_px
+        light[window.pixels] = under * (1 - _spread(cover, sigma_px))
+        light[window.pixels] += gain * _spread(radiance, sigma_px)
+
+    def _seen_px(self, p_robot: Array, T_world_robot: RigidTransform) -> Array | None:
+        """Return pixels, shape (n, 2); None where one is not before the camera."""
+        p_camera = (self._T_camera_world * T_world_robot).apply(p_robot)
+        pixels = np.asarray(self._shot.camera.project(p_camera))
+        return pixels if np.isfinite(pixels).all() and (p_camera[:, 2] > 0).all() else None
+
+    def _window(self, pixels: Array) -> Box:
+        left, top = np.floor(pixels.min(axis=0)).astype(int).tolist()
+        right, bottom = np.ceil(pixels.max(axis=0)).astype(int).tolist()
+        image = Box(0, 0, *self._shot.camera.size_px)
+        return Box(left, top, right + 1, bottom + 1).grown(_REACH_PX) & image
+
+
+def _painted(
+    roof: _Roof, body_px: Array, corners_px: Array, window: Box
+) -> tuple[FloatImage, FloatImage]:
+    """Return the light under an irradiance of 1, and the cover, of a window's pixels."""
+    width, height = window.right - window.left, window.bottom - window.top
+    size = (_FINE * width, _FINE * height)
+    cover = np.zeros((size[1], size[0]), np.float32)
+    outline = cv2.convexHull(_fine(body_px, window).astype(np.float32))[:, 0]
+    points = np.rint(outline * 2**_SUBPIXEL_BITS).astype(np.int32)
+    cv2.fillConvexPoly(cover, points, 1.0, cv2.LINE_8, _SUBPIXEL_BITS)
+    sheet_m = _unit_square() * _side_m(roof)
+    to_fine = cv2.getPerspectiveTransform(
+        sheet_m.astype(np.float32), _fine(corners_px, window).astype(np.float32)
+    )
+    H = to_fine @ np.linalg.inv(roof.to_texel)
+    paper = cv2.warpPerspective(
+        roof.reflectance, H, size, flags=cv2.INTER_NEAREST, borderValue=-1.0
+    )
+    on_roof = paper >= 0
+    radiance = np.where(on_roof, paper, _BODY * cover).astype(np.float32)
+    cover[on_roof] = 1.0
+    return _means(radiance, width, height), _means(cover, width, height)
+
+
+def _means(fine: FloatImage, width: int, height: int) -> FloatImage:
+    return np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), np.float32)
+
+
+def _spread(image: FloatImage, sigma_px: float) -> FloatImage:
+    if sigma_px == 0:
+        return image
+    return np.asarray(cv2.GaussianBlur(image, (0, 0), sigma_px), np.float32)
+
+
+def _fine(pixels: Array, window: Box) -> Array:
+    """Return places on the fine grid, whose integers are its points."""
+    return np.asarray((pixels - [window.left, window.top] + 0.5) * _FINE - 0.5)
+
+
+def _unit_square() -> Array:
+    return np.array([[-0.5, 0.5], [0.5, 0.5], [0.5, -0.5], [-0.5, -0.5]])
+
+
+def _side_m(roof: _Roof) -> float:
+    return float(np.linalg.norm(roof.corners_m[1] - roof.corners_m[0]))
+
+
+def _roof(robot: Robot) -> _Roof:
+    sheet = _marker_paper(robot)
+    cells = _cells(sheet)
+    side = len(cells)
+    scale = side / sheet.width_m
+    middle = side / 2 - 0.5
+    to_texel = np.array([[scale, 0.0, middle], [0.0, -scale, middle], [0.0, 0.0, 1.0]])
+    flat = np.column_stack([_unit_square() * sheet.width_m, np.zeros(4)])
+    body = body_thing(robot).sheets
+    body_m = np.concatenate([one.T_thing_sheet.apply(one.corners_m) for one in body])
+    return _Roof(cells, to_texel, sheet.T_thing_sheet.apply(flat), body_m)
+
+
+def body_thing(robot: Robot) -> Thing:
+    """Return a robot's body: a box as wide as fits into its circle, up to just below its marker."""
+    side_m, height_m = robot.diameter_m / np.sqrt(2), robot.mount.height_m - 1e-3
+    body = box(robot.name, (side_m, side_m, height_m), brightness=_BODY)
+    up = RigidTransform.from_translation([0.0, 0.0, height_m / 2])
+    sheets = tuple(replace(one, T_thing_sheet=up * one.T_thing_sheet) for one in body.sheets)
+    return replace(body, sheets=sheets)
+
+
+def T_robot_marker(robot: Robot) -> RigidTransform:  # noqa: N802 - a frame's name
+    """Return where a robot's marker lies on it; its top is to the front at a turn of 0."""
+    mount = robot.mount
+    return RigidTransform.from_components(
+        [mount.forward_m, mount.left_m, mount.height_m],
+        Rotation.from_euler("z", mount.turn_rad - np.pi / 2),
+    )
+
+
+def _marker_paper(robot: Robot) -> Sheet:
+    """Return the paper on a robot's roof, with a quiet zone of one cell."""
+    return marker_sheet(
+        MountedMarker(robot.family, robot.marker_id, robot.marker_size_m, T_robot_marker(robot))
+    )
+
+
+def _cells(sheet: Sheet) -> FloatImage:
+    """Return the reflectance of a marker's paper, cell by cell."""
+    (printed,) = sheet.prints
+    ink = np.pad(printed.ink, 1)
+    return np.asarray(sheet.paper + (sheet.ink - sheet.paper) * ink, np.float32)
