@@ -11,6 +11,7 @@ _HOMES = {
     "seed002-yaw": "seed002_yaw",
     "seed002-tilt": "seed002_tilt",
     "seed002-zones": "seed002_zones",
+    "seed002-perpendicular": "seed002_perpendicular",
     "seed003-calibration": "seed003_calibration",
     "seed003-pose": "seed003_pose",
     "seed004-distance": "seed004_distance",
