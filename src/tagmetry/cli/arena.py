@@ -5,6 +5,7 @@ import typer
 from tagmetry.cli.arena_audit import audit
 from tagmetry.cli.arena_calibrate import calibrate
 from tagmetry.cli.arena_mount import mount
+from tagmetry.cli.arena_recording import export, replay
 from tagmetry.cli.arena_run import run
 
 app = typer.Typer(help="Robots under a ceiling camera.", no_args_is_help=True)
@@ -12,3 +13,5 @@ app.command()(calibrate)
 app.command()(audit)
 app.command()(mount)
 app.command()(run)
+app.command()(replay)
+app.command()(export)

@@ -14,6 +14,7 @@ from tagmetry.cli.options import CameraFile
 if TYPE_CHECKING:
     from tagmetry.files.arena import ArenaSetup
     from tagmetry.pipeline.arena import ArenaResult, Latency, Taker
+    from tagmetry.record.mcap import Recorder
 
 
 def run(  # noqa: PLR0913 (each argument is an option)
@@ -28,6 +29,13 @@ def run(  # noqa: PLR0913 (each argument is an option)
         str | None,
         typer.Option(help="Talk to the robots from this address: 127.0.0.1, 192.168.1.5:6160."),
     ] = None,
+    record: Annotated[
+        Path | None,
+        typer.Option(help="Record images, markers, states and all packets: .mcap."),
+    ] = None,
+    lossless: Annotated[
+        bool, typer.Option("--lossless", help="Record images as PNG: they replay bit by bit.")
+    ] = False,
     poses: Annotated[
         bool, typer.Option(help="Robots may know where they are, not only their neighbours.")
     ] = False,
@@ -47,7 +55,9 @@ def run(  # noqa: PLR0913 (each argument is an option)
     with ExitStack() as stack:
         images = stack.enter_context(opened(source, world.view.camera))
         task = ArenaMeasurement.of(setup, world, is_live=images.is_live, lead_s=lead)
-        takers = _takers(stack, setup, link, out, poses=poses, quiet=quiet, live=images.is_live)
+        recorder = _recorder(stack, record, lossless=lossless, live=images.is_live)
+        takers = _talkers(stack, setup, link, recorder, poses=poses)
+        takers += _writers(stack, out, recorder, quiet=quiet, live=images.is_live)
         results = closing(run_arena(islice(images, limit), task, takers, latency))
         following = stack.enter_context(results)
         told: set[str] = set()
@@ -60,41 +70,66 @@ def run(  # noqa: PLR0913 (each argument is an option)
     _sum_up(latency)
 
 
-def _takers(
+def _recorder(
+    stack: ExitStack, path: Path | None, *, lossless: bool, live: bool
+) -> "Recorder | None":
+    """Return a recorder that is open, where one is wanted; of files it drops nothing."""
+    if path is None:
+        return None
+    from tagmetry.record.mcap import Recorder
+
+    quality = None if lossless else 90
+    return stack.enter_context(Recorder(path, jpeg_quality=quality, may_drop=live))
+
+
+def _talkers(
     stack: ExitStack,
     setup: "ArenaSetup",
     link: str | None,
-    out: Path | None,
+    recorder: "Recorder | None",
     *,
     poses: bool,
+) -> "list[Taker]":
+    """Return who talks to the robots, if anybody shall."""
+    if link is None:
+        return []
+    from tagmetry.errors import InputError
+    from tagmetry.link import PORT, Host, Packet
+    from tagmetry.pipeline.arena.linked import LinkTaker
+    from tagmetry.pipeline.arena.recorded import packet_record
+
+    def note(packet: Packet) -> None:
+        if recorder is not None:
+            recorder.packet(packet_record(packet))
+
+    address, _, port = link.partition(":")
+    if port and not (port.isdecimal() and int(port) <= 0xFFFF):
+        raise InputError(f"expected an address like 192.168.1.5:{PORT}, got {link[:40]!r}")
+    at_port = int(port) if port else PORT
+    host = stack.enter_context(Host(setup.keys(), address, at_port, on_packet=note))
+    range_m = setup.sensor.range_m if setup.sensor is not None else float("inf")
+    return [LinkTaker(host, range_m, poses=poses)]
+
+
+def _writers(
+    stack: ExitStack,
+    out: Path | None,
+    recorder: "Recorder | None",
+    *,
     quiet: bool,
     live: bool,
 ) -> "list[Taker]":
-    """Return who takes the results: the link first, then the lines behind a queue."""
+    """Return who writes the results: the recorder, which has a queue, and lines behind one."""
     from tagmetry.pipeline.arena import Posted
     from tagmetry.pipeline.arena.lines import LineTaker
+    from tagmetry.pipeline.arena.recorded import RecorderTaker
 
-    takers: list[Taker] = []
-    if link is not None:
-        takers.append(_linked(stack, setup, link, poses=poses))
+    takers: list[Taker] = [RecorderTaker(recorder)] if recorder is not None else []
     if out is not None:
         takers.append(Posted(LineTaker(_line_writer(stack, out)), longest=1000, may_drop=live))
     elif not quiet:
         takers.append(Posted(LineTaker(typer.echo), longest=4, may_drop=live))
     return takers
-
-
-def _linked(stack: ExitStack, setup: "ArenaSetup", text: str, *, poses: bool) -> "Taker":
-    from tagmetry.errors import InputError
-    from tagmetry.link import PORT, Host
-    from tagmetry.pipeline.arena.linked import LinkTaker
-
-    address, _, port = text.partition(":")
-    if port and not (port.isdecimal() and int(port) <= 0xFFFF):
-        raise InputError(f"expected an address like 192.168.1.5:{PORT}, got {text[:40]!r}")
-    host = stack.enter_context(Host(setup.keys(), address, int(port) if port else PORT))
-    range_m = setup.sensor.range_m if setup.sensor is not None else float("inf")
-    return LinkTaker(host, range_m, poses=poses)
 
 
 def _line_writer(stack: ExitStack, path: Path) -> "Callable[[str], object]":

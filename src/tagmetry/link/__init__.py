@@ -17,7 +17,7 @@ from tagmetry.link.messages import (
 )
 from tagmetry.link.packet import Refusal
 from tagmetry.link.peer import RobotLink
-from tagmetry.link.traffic import Packet, Received
+from tagmetry.link.traffic import Packet, Received, packet_message
 from tagmetry.link.wire import PORT
 
 __all__ = [
@@ -40,5 +40,6 @@ __all__ = [
     "Telemetry",
     "new_key",
     "now_us",
+    "packet_message",
     "parse_key",
 ]

@@ -2,8 +2,10 @@
 
 from dataclasses import dataclass
 
+from tagmetry.link.bodies import unpack_body
 from tagmetry.link.layout import Kind
 from tagmetry.link.messages import Message
+from tagmetry.link.packet import body_of
 
 
 @dataclass(frozen=True)
@@ -40,3 +42,8 @@ class Packet:
     kind: Kind
     is_incoming: bool
     content: bytes
+
+
+def packet_message(packet: Packet) -> Message | None:
+    """Return what a packet says; None where that makes no sense."""
+    return unpack_body(packet.kind, body_of(packet.content))

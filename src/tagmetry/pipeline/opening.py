@@ -5,6 +5,7 @@ from tagmetry.errors import InputError
 from tagmetry.sources import OnState, open_source
 
 _TWIN = "twin:"
+_RECORDING = ".mcap"
 _SCENE_FILES = (".yaml", ".yml")
 
 
@@ -14,10 +15,10 @@ def open_images(
     """Open a source of images.
 
     Args:
-        spec: What `sources.open_source` understands, or of the twin: a simulated camera
-            (`twin:webcam`, `twin:overhead`, `twin:mono`), a ready-made scene (`twin:room`) or a
-            scene's file (`twin:desk.yaml`). Those tell their exact intrinsics, where none are
-            given.
+        spec: What `sources.open_source` understands, a recording (`run.mcap`), or of the twin: a
+            simulated camera (`twin:webcam`, `twin:overhead`, `twin:mono`), a ready-made scene
+            (`twin:room`) or a scene's file (`twin:desk.yaml`). Those tell their exact intrinsics,
+            where none are given.
         camera: Intrinsics that every image must fit.
         on_state: Told when a live source is lost and found again, from another thread.
 
@@ -25,6 +26,10 @@ def open_images(
         InputError: It is not there, or nothing that is understood.
         MissingExtraError: It needs an optional part of tagmetry.
     """
+    if spec.lower().endswith(_RECORDING):
+        from tagmetry.record.mcap import Replay
+
+        return Replay(spec, camera=camera)
     if not spec.startswith(_TWIN):
         return open_source(spec, camera=camera, on_state=on_state)
     return _open_twin(spec.removeprefix(_TWIN), tells_camera=camera is None)

@@ -66,7 +66,8 @@ def _export_table(path: str | Path, topic: str, file: Path) -> int:
     kind = STATE_ROWS if topic == STATES else PACKET_ROWS
     is_csv = file.suffix == ".csv"
     encoder: Encoder[list[Cell]] = (CsvRows if is_csv else ParquetRows)(kind.columns)
-    return _write_all(WholeFileWriter(file, encoder), _rows(path, topic, kind))
+    writer = WholeFileWriter[list[Cell]](file, encoder)
+    return _write_all(writer, _rows(path, topic, kind))
 
 
 def _write_all(writer: Writer[Item], groups: Iterable[list[Item]]) -> int:

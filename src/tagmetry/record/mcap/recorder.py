@@ -11,7 +11,7 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import BinaryIO, Self
+from typing import BinaryIO, Self, TypeVar
 
 from tagmetry.arena import WorldState
 from tagmetry.camera import Image
@@ -30,6 +30,9 @@ PIECE_S = 0.25
 _PIECE_BYTES = 8 * 2**20
 _MOST_IMAGES = 30
 _MOST_MESSAGES = 50_000
+_WAKE_S = 0.1
+
+T = TypeVar("T")
 
 
 class Recorder:
@@ -39,12 +42,16 @@ class Recorder:
     the run goes on, and what was written until then stays whole.
     """
 
-    def __init__(self, path: str | Path, *, jpeg_quality: int | None = 90) -> None:
+    def __init__(
+        self, path: str | Path, *, jpeg_quality: int | None = 90, may_drop: bool = True
+    ) -> None:
         """Choose the file, which is replaced.
 
         Args:
             path: Where to; ends in `.mcap`.
             jpeg_quality: Of images, 1 to 100; None for lossless PNG, which replays bit by bit.
+            may_drop: Drop what the disk is too slow for; else the calls wait, as is right for
+                images that come from a file.
 
         Raises:
             InputError: The suffix or the quality is another one.
@@ -55,12 +62,12 @@ class Recorder:
         if jpeg_quality is not None and not 1 <= jpeg_quality <= 100:
             raise InputError(f"expected a JPEG quality, 1 to 100, got {jpeg_quality}")
         require_mcap("recording")
-        self._path, self._jpeg_quality = Path(path), jpeg_quality
+        self._path, self._jpeg_quality, self._may_drop = Path(path), jpeg_quality, may_drop
         self._images: deque[tuple[int, Image]] = deque(maxlen=_MOST_IMAGES)
         self._messages: deque[Callable[[], Entry]] = deque(maxlen=_MOST_MESSAGES)
         self._dropped_count = 0
         self._failure: str | None = None
-        self._lock = threading.Lock()
+        self._changed = threading.Condition()
         self._is_closing = threading.Event()
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
 
@@ -100,9 +107,7 @@ class Recorder:
 
     def image(self, image: Image) -> None:
         """Record an image."""
-        with self._lock:
-            self._dropped_count += len(self._images) == _MOST_IMAGES
-            self._images.append((time.time_ns(), image))
+        self._put(self._images, (time.time_ns(), image))
 
     def detections(self, result: ImageResult) -> None:
         """Record what was measured in an image."""
@@ -123,9 +128,15 @@ class Recorder:
     def _take(self, topic: str, time_s: float, text: Callable[[], bytes]) -> None:
         """Remember what is to be written; its text is made in the recorder's thread."""
         logged_ns, stamped_ns = time.time_ns(), _nanoseconds(time_s)
-        with self._lock:
-            self._dropped_count += len(self._messages) == _MOST_MESSAGES
-            self._messages.append(lambda: Entry(topic, logged_ns, stamped_ns, text()))
+        self._put(self._messages, lambda: Entry(topic, logged_ns, stamped_ns, text()))
+
+    def _put(self, queue: deque[T], item: T) -> None:
+        """Append to a queue; where it is full, wait for room or drop the oldest."""
+        with self._changed:
+            while not self._may_drop and len(queue) == queue.maxlen and self._failure is None:
+                self._changed.wait(_WAKE_S)
+            self._dropped_count += len(queue) == queue.maxlen
+            queue.append(item)
 
     def _run(self) -> None:
         try:
@@ -157,9 +168,10 @@ class Recorder:
 
     def _next(self) -> Entry | None:
         """Return what waits next; messages first, they are quick."""
-        with self._lock:
+        with self._changed:
             make = self._messages.popleft() if self._messages else None
             logged = self._images.popleft() if make is None and self._images else None
+            self._changed.notify_all()
         if make is not None:
             return self._made(make)
         if logged is None:
@@ -172,7 +184,7 @@ class Recorder:
         try:
             return make()
         except (InputError, TypeError):
-            with self._lock:
+            with self._changed:
                 self._dropped_count += 1
             return None
 
