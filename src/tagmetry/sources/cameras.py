@@ -13,6 +13,7 @@ from tagmetry.sources.quiet import quiet_opencv
 if TYPE_CHECKING:
     from cv2 import VideoCapture
 
+_OPENING_S = 5.0  # for another thread that opens it
 _PATIENCE_S = 2.0  # for an image under way
 
 
@@ -39,11 +40,13 @@ class CameraOpener:
         self.device = device
         self._size_px, self._grey = size_px, grey
         self._turn = threading.Lock()  # OpenCV's captures serve one thread at a time
+        self._is_open = threading.Event()
         self._capture: VideoCapture | None = None
 
     def __call__(self) -> Connection:
         """Open the camera."""
         self._capture = _open(self.device, self._size_px)
+        self._is_open.set()
         return _Capture(self._capture, self._turn, grey=self._grey)
 
     def get(self, prop: int) -> float:
@@ -59,8 +62,8 @@ class CameraOpener:
     @contextmanager
     def _taken(self) -> "Generator[VideoCapture]":
         """Give the open camera, between two of its images."""
-        if self._capture is None:
-            raise InputError(f"camera {self.device} is not open yet: take an image first")
+        if not self._is_open.wait(_OPENING_S) or self._capture is None:
+            raise InputError(f"camera {self.device} is not open: is it plugged in?")
         if not self._turn.acquire(timeout=_PATIENCE_S):
             raise InputError(f"camera {self.device} does not answer")
         try:

@@ -1,17 +1,25 @@
 """Which controls belong to a source, and OpenCV's."""
 
+import os
 import platform
 import threading
 
 import cv2
 import numpy as np
 import pytest
+from fake_video_device import webcam
 
-from tagmetry.camera import ControlRefusedError, Controls
+from tagmetry.camera import ControlledSource, ControlRefusedError, Controls
 from tagmetry.errors import InputError
 from tagmetry.sources import LiveSource, Pictures
 from tagmetry.sources.cameras import CameraOpener, camera_opener
-from tagmetry.sources.controls import OpenCvControls, by_hand, open_controls
+from tagmetry.sources.controls import (
+    OpenCvControls,
+    V4l2Controls,
+    by_hand,
+    controlled,
+    open_controls,
+)
 from tagmetry.twin.camera import ready_camera
 
 
@@ -71,7 +79,6 @@ def test_under_linux_a_camera_is_its_video_device(monkeypatch) -> None:
 def test_elsewhere_opencv_sets_the_open_camera(monkeypatch) -> None:
     source, capture = opened(monkeypatch, "Windows")
     with source:
-        next(iter(source))
         controls = open_controls(source)
         assert isinstance(controls, OpenCvControls)
         with by_hand(controls):
@@ -81,9 +88,45 @@ def test_elsewhere_opencv_sets_the_open_camera(monkeypatch) -> None:
     assert capture.values[cv2.CAP_PROP_AUTO_EXPOSURE] == 1
 
 
-def test_a_camera_that_is_not_open_says_what_to_do() -> None:
-    with pytest.raises(InputError, match="camera 3 is not open yet: take an image first"):
+def test_a_camera_that_does_not_open_is_named(monkeypatch) -> None:
+    monkeypatch.setattr("tagmetry.sources.cameras._OPENING_S", 0.05)
+    with pytest.raises(InputError, match="camera 3 is not open: is it plugged in"):
         CameraOpener(3).get(0)
+
+
+def test_a_camera_that_hangs_is_named(monkeypatch) -> None:
+    monkeypatch.setattr("tagmetry.sources.cameras._PATIENCE_S", 0.05)
+    source, _ = opened(monkeypatch, "Windows")
+    with source:
+        next(iter(source))
+        with source.opener._turn, pytest.raises(InputError, match="camera 254 does not answer"):
+            source.opener.get(cv2.CAP_PROP_ZOOM)
+
+
+def test_a_source_and_its_controls_become_one(monkeypatch) -> None:
+    twin = ready_camera("webcam")
+    assert controlled(twin) is twin
+    source, capture = opened(monkeypatch, "Windows")
+    with controlled(source) as both:
+        assert isinstance(both, ControlledSource)
+        assert (both.name, both.is_live, both.length) == ("camera 254", True, None)
+        assert next(iter(both)).pixels.shape == (8, 8, 3)
+        both.controls.write("zoom", 200)
+        assert capture.values[cv2.CAP_PROP_ZOOM] == 200
+    assert list(source) == []
+
+
+def test_a_video_device_is_let_go_of_with_its_source(monkeypatch) -> None:
+    source, _ = opened(monkeypatch, "Linux")
+    read_end, write_end = os.pipe()
+    os.close(write_end)
+    own = V4l2Controls(read_end, webcam().ioctl)
+    monkeypatch.setattr(V4l2Controls, "open", lambda path: own if path == "/dev/video254" else None)
+    with controlled(source) as both:
+        assert both.controls is own
+    with pytest.raises(OSError, match="Bad file descriptor"):
+        os.fstat(read_end)
+    own.close()
 
 
 def test_opencv_has_the_controls_that_the_camera_takes() -> None:

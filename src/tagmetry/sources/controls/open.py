@@ -14,8 +14,8 @@ def open_controls(source: Source) -> Controls:
     """Return what can be set on the camera that a source gives images of.
 
     Args:
-        source: A camera of this computer (`open_source(0)`; outside Linux, take an image of it
-            first), or one that has its own controls, as the twin's.
+        source: A camera of this computer (`open_source(0)`), or one that has its own controls, as
+            the twin's.
 
     Raises:
         InputError: It has none, as a file or a stream; or the device cannot be opened.
