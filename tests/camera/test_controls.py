@@ -130,6 +130,36 @@ def _zoomed_and_stuck(controls: FakeControls) -> None:
         controls.refused.add("zoom")
 
 
+def test_what_nobody_touched_is_not_written() -> None:
+    """A value that was found may be one that the camera would not take."""
+    controls = FakeControls(zoom=-5.0, focus=7.0)
+    controls.refused.add("zoom")
+    with restored(controls):
+        controls.write("focus", 30.0)
+    assert controls.values == {"zoom": -5.0, "focus": 7.0}
+
+
+def test_what_can_no_longer_be_read_keeps_no_other_from_being_set_back() -> None:
+    class Broken(FakeControls):
+        is_broken = False
+
+        def read(self, name):
+            if self.is_broken and name == "zoom":
+                raise ControlRefusedError("zoom: no answer")
+            return super().read(name)
+
+    controls = Broken(zoom=100.0, focus=7.0)
+    with pytest.raises(ControlRefusedError, match="not set back as it was: zoom: no answer"):
+        _broken_within(controls)
+    assert controls.values["focus"] == 7.0
+
+
+def _broken_within(controls) -> None:
+    with restored(controls):
+        controls.write("focus", 30.0)
+        controls.is_broken = True
+
+
 def test_verified_controls_return_what_is_read_back() -> None:
     controls = VerifiedControls(FakeControls(zoom=100.0))
     assert isinstance(controls, Controls)

@@ -30,11 +30,12 @@ def restored(controls: Controls) -> Generator[Controls]:
 
 
 def _refusals(controls: Controls, values: Iterable[tuple[str, float]]) -> list[str]:
-    """Set values, and return why some were refused."""
+    """Set values where they are not so already, and return why some were refused."""
     refusals = []
     for name, value in values:
         try:
-            controls.write(name, value)
+            if controls.read(name) != value:
+                controls.write(name, value)
         except InputError as refusal:
             refusals.append(str(refusal))
     return refusals
