@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 
 from tagmetry.camera import Image
-from tagmetry.sources.closing import ClosingSource
+from tagmetry.sources.closing import Closing
 from tagmetry.twin.recipe import Recipe, pictures
 
 
-class RecipeSource(ClosingSource):
+class RecipeSource(Closing):
     """The images of a recipe, each with the time of its middle."""
 
     def __init__(self, recipe: Recipe, name: str, *, tells_camera: bool = False) -> None:

@@ -1,16 +1,16 @@
-"""What every source shares: it is a context manager that closes itself."""
+"""What sources and others that hold something share: a `with` block closes them at its end."""
 
 from abc import ABC, abstractmethod
 from types import TracebackType
 from typing import Self
 
 
-class ClosingSource(ABC):
-    """A source that lets go of what it holds at the end of a `with` block."""
+class Closing(ABC):
+    """Lets go of what it holds at the end of a `with` block."""
 
     @abstractmethod
     def close(self) -> None:
-        """Let go of the file or device; may be called twice."""
+        """Let go of the file, device or process."""
 
     def __enter__(self) -> Self:
         return self

@@ -14,7 +14,7 @@ from tagmetry.camera import Camera, Image
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.sources.arrivals import Arrivals
-from tagmetry.sources.closing import ClosingSource
+from tagmetry.sources.closing import Closing
 from tagmetry.sources.connection import Opener
 from tagmetry.sources.fit import checked_fit
 from tagmetry.sources.newest import Newest
@@ -26,7 +26,7 @@ _GLANCE_S = 0.1  # between two looks at a reader
 _MOST_HANGING = 3  # readers left behind in a driver; more would only eat memory
 
 
-class LiveSource(ClosingSource):
+class LiveSource(Closing):
     """The newest images of a camera or stream."""
 
     def __init__(

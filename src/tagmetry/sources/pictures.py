@@ -7,7 +7,7 @@ from pathlib import Path
 from tagmetry.camera import Camera, Image
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.sources.closing import ClosingSource
+from tagmetry.sources.closing import Closing
 from tagmetry.sources.content import HEAD_BYTES, describe, picture_kind
 from tagmetry.sources.decode import decode_picture
 from tagmetry.sources.fit import checked_fit
@@ -15,7 +15,7 @@ from tagmetry.sources.fit import checked_fit
 MAX_FILE_BYTES = 2**31 - 1  # OpenCV's buffers end here; 200 megapixels of 16-bit colour fit
 
 
-class Pictures(ClosingSource):
+class Pictures(Closing):
     """Picture files, read one by one when their turn comes.
 
     A file that cannot be used raises InputError at its turn; the next call of `next` on the same

@@ -13,7 +13,7 @@ from tagmetry.camera import Camera, Image
 from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.sources.avlib import open_container
-from tagmetry.sources.closing import ClosingSource
+from tagmetry.sources.closing import Closing
 from tagmetry.sources.content import HEAD_BYTES, describe, is_text
 from tagmetry.sources.decoding import decoded
 from tagmetry.sources.fit import checked_fit
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _RATE_WITHOUT_ONE_HZ = 25.0
 
 
-class VideoFile(ClosingSource):
+class VideoFile(Closing):
     """Every image of a video file, in order.
 
     `Image.time_s` is the timestamp in the file, whatever the rate does. Where the file is damaged,

@@ -1,14 +1,13 @@
 """The engines of a run, each in its own process, alive as far as possible."""
 
 from collections.abc import Sequence
-from types import TracebackType
-from typing import Self
 
 from tagmetry.lab.bench.case import Case
 from tagmetry.lab.engines import Child, EngineKind, Patience
+from tagmetry.sources.closing import Closing
 
 
-class Team:
+class Team(Closing):
     """Engines that may use so many threads; those that died come back for the next case.
 
     Args:
@@ -40,17 +39,6 @@ class Team:
         """End all processes."""
         while self._children:
             self._children.popitem()[1].close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def _alive(self, kind: EngineKind, family: str) -> Child:
         key = (kind.name, family)

@@ -51,8 +51,8 @@ def gains(rows: Sample, quantity: str) -> Array:
     return np.array([with_four[pair] - with_five[pair] for pair in with_four if pair in with_five])
 
 
-def _by_pair(rows: Sample, quantity: str) -> dict[tuple[float, float, int], float]:
-    pairs = [(row.distance_m, row.yaw_deg, row.repeat) for row in rows.rows]
+def _by_pair(rows: Sample, quantity: str) -> dict[tuple[float, ...], float]:
+    pairs = zip(*(rows.values(name) for name in ("distance_m", "yaw_deg", "repeat")), strict=True)
     return dict(zip(pairs, rows.values(quantity).tolist(), strict=True))
 
 

@@ -12,12 +12,11 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.lab.engines.engine import EngineKind
 from tagmetry.lab.engines.worker import Answer, serve
+from tagmetry.sources.closing import Closing
 
 _THREAD_VARIABLES = (
     "NUMBA_NUM_THREADS",
@@ -52,7 +51,7 @@ class Patience:
     first_s: float = 300.0
 
 
-class Child:
+class Child(Closing):
     """One engine in its own process, until it is closed.
 
     After a failure it is dead, and says so again whenever it is asked.
@@ -108,17 +107,6 @@ class Child:
         self._process.close()
         self._pipe.close()
         self._complaints.unlink(missing_ok=True)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def _order(self, order: tuple[GreyPixels, ...] | int, patience_s: float) -> object:
         if self._failure is not None:

@@ -5,7 +5,6 @@ steps of the paper's program, some times with other noise.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,29 +13,10 @@ from tagmetry.geometry import Array
 from tagmetry.lab.beside.seed003_calibration import conclude
 from tagmetry.lab.experiment import Experiment
 from tagmetry.lab.rigs.webcam import CAMERA, PRINTED, board_poses, to_tutorial
-from tagmetry.lab.rigs.webcam_calibration import METHODS, Method, SolvedWebcam, solved_webcam
+from tagmetry.lab.rigs.webcam_calibration import Case, SolvedWebcam, cases, solved_webcam
 from tagmetry.lab.rows import Quantity
 
 _PARAMETERS = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
-
-
-@dataclass(frozen=True)
-class Case:
-    """One calibration.
-
-    Attributes:
-        method: Whose.
-        repeat: Which of its repeats, each with other noise.
-    """
-
-    method: Method
-    repeat: int
-
-
-def cases(quick: bool) -> tuple[Case, ...]:
-    """Return both methods, each as often as it is repeated."""
-    repeats = range(1 if quick else 8)
-    return tuple(Case(method, repeat) for repeat in repeats for method in METHODS)
 
 
 def measure(case: Case, seed: int) -> Sequence[Quantity]:

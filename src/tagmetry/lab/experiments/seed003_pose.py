@@ -7,7 +7,7 @@ tell its marker's side; 100 mm is taken.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import cv2
@@ -22,7 +22,7 @@ from tagmetry.lab.beside.seed003_pose import conclude
 from tagmetry.lab.experiment import Experiment
 from tagmetry.lab.published.seed003 import PositionTable, seed003
 from tagmetry.lab.rigs.webcam import picture
-from tagmetry.lab.rigs.webcam_calibration import METHODS, Method, solved_webcam
+from tagmetry.lab.rigs.webcam_calibration import Case, cases, solved_webcam
 from tagmetry.lab.rows import Position
 from tagmetry.markers import MountedMarker, marker_corners_m
 from tagmetry.pose import estimate_pose
@@ -33,19 +33,6 @@ MARKER = MountedMarker("aruco_original", 30, SIZE_M, RigidTransform.identity())
 _MOST_LEAN_DEG = 2.0  # nobody holds a marker straight
 
 
-@dataclass(frozen=True)
-class Case:
-    """A calibration, and all positions measured with it.
-
-    Attributes:
-        method: Whose.
-        repeat: Which of its repeats, each with other noise.
-    """
-
-    method: Method
-    repeat: int
-
-
 class Reading(NamedTuple):
     """A marker's place in the camera's frame, shape (3,), and its standard deviations, m."""
 
@@ -54,12 +41,6 @@ class Reading(NamedTuple):
 
 
 _NOTHING = Reading(np.full(3, np.nan), np.full(3, np.nan))
-
-
-def cases(quick: bool) -> tuple[Case, ...]:
-    """Return both methods, each as often as it is repeated."""
-    repeats = range(1 if quick else 8)
-    return tuple(Case(method, repeat) for repeat in repeats for method in METHODS)
 
 
 def measure(case: Case, seed: int) -> Sequence[Position]:

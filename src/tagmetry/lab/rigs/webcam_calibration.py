@@ -31,6 +31,25 @@ _WINDOW = (11, 11)
 _ENOUGH = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_MAX_ITER, 100, 0.001)
 
 
+@dataclass(frozen=True)
+class Case:
+    """One calibration.
+
+    Attributes:
+        method: Whose.
+        repeat: Which of its repeats, each with other noise.
+    """
+
+    method: Method
+    repeat: int
+
+
+def cases(quick: bool) -> tuple[Case, ...]:
+    """Return both methods, each as often as it is repeated."""
+    repeats = range(1 if quick else 8)
+    return tuple(Case(method, repeat) for repeat in repeats for method in METHODS)
+
+
 @dataclass(frozen=True, eq=False)
 class SolvedWebcam:
     """A calibration of the webcam.

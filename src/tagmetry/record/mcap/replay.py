@@ -10,11 +10,11 @@ from tagmetry.record.mcap.images import parse_image
 from tagmetry.record.mcap.pieces import MAGIC, require_mcap
 from tagmetry.record.mcap.reading import read_entries, warn_of_damage
 from tagmetry.record.mcap.topics import IMAGES
-from tagmetry.sources.closing import ClosingSource
+from tagmetry.sources.closing import Closing
 from tagmetry.sources.fit import checked_fit
 
 
-class Replay(ClosingSource):
+class Replay(Closing):
     """The images of a recording, in order, as quickly as they are taken.
 
     Stamps, numbers and the name of the source are those of the run that was recorded. A recording

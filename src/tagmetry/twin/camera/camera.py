@@ -13,7 +13,7 @@ import numpy as np
 from tagmetry.camera import Camera, Image
 from tagmetry.errors import InputError
 from tagmetry.geometry import RigidTransform
-from tagmetry.sources.closing import ClosingSource
+from tagmetry.sources.closing import Closing
 from tagmetry.twin.camera.auto import better_exposed, first_climb, sharpness_of
 from tagmetry.twin.camera.development import Taking, image_pixels
 from tagmetry.twin.camera.device import Device
@@ -29,7 +29,7 @@ _AT_ORIGIN = Still(RigidTransform.identity())
 _SAME_S = 1e-9
 
 
-class TwinCamera(ClosingSource):
+class TwinCamera(Closing):
     """The images of a simulated camera."""
 
     def __init__(
