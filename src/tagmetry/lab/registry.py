@@ -8,6 +8,10 @@ from tagmetry.files.plain import shortened
 from tagmetry.lab.experiment import Experiment
 
 _HOMES = {
+    "seed001-calibration": "seed001_calibration",
+    "seed001-map": "seed001_map",
+    "seed001-slider": "seed001_slider",
+    "seed001-rate": "seed001_rate",
     "seed002-yaw": "seed002_yaw",
     "seed002-tilt": "seed002_tilt",
     "seed002-zones": "seed002_zones",
