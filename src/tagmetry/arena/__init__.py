@@ -4,6 +4,12 @@ from tagmetry.arena.arena import Arena, ArenaStep
 from tagmetry.arena.audit import AuditGrid, ErrorMap, GridPlace, audit
 from tagmetry.arena.bump import BumpCheck, BumpRules, FloorCorners, check_bump, floor_corners
 from tagmetry.arena.floor_layout import LaidFloor, lay_floor
+from tagmetry.arena.latency import (
+    Reaction,
+    estimate_reaction,
+    expected_heading,
+    expected_light,
+)
 from tagmetry.arena.mounting import (
     Estimate,
     SpinCenter,
@@ -22,6 +28,7 @@ from tagmetry.arena.sighting import Roster, Sightings, sight
 from tagmetry.arena.square_fit import SquareFits, fit_squares
 from tagmetry.arena.tracks import Motion, TrackEvent, TrackRules, Tracks
 from tagmetry.arena.view_from_floor import view_from_floor
+from tagmetry.arena.wiggle import wiggle
 from tagmetry.arena.world_state import STATE_NAMES, RobotState, WorldState
 
 __all__ = [
@@ -47,6 +54,7 @@ __all__ = [
     "Neighbourhood",
     "Obstacle",
     "OverheadView",
+    "Reaction",
     "Robot",
     "RobotState",
     "Roster",
@@ -64,6 +72,9 @@ __all__ = [
     "audit",
     "check_bump",
     "decide",
+    "estimate_reaction",
+    "expected_heading",
+    "expected_light",
     "fit_squares",
     "floor_corners",
     "height_at_places",
@@ -74,4 +85,5 @@ __all__ = [
     "sight",
     "turn_from_drive",
     "view_from_floor",
+    "wiggle",
 ]
