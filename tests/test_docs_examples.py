@@ -26,6 +26,7 @@ SOURCE = Path(tagmetry.__file__).parents[1]
 EXAMPLES = Path(__file__).parents[1] / "docs" / "examples"
 SCENES = EXAMPLES.parent / "scenes"
 MAPS = EXAMPLES.parent / "maps"
+ARENAS = EXAMPLES.parent / "arenas"
 NAMES = sorted(path.name for path in EXAMPLES.iterdir() if path.is_file())
 CAMERA = Camera(1280, 720, (1000.0, 1000.0), (639.5, 359.5), name="example")
 
@@ -53,6 +54,7 @@ HELD = (  # where a chessboard is held before a webcam: metres, degrees about x 
     ((0.00, 0.02, 0.55), (145, 20)),
 )
 WRITTEN = {
+    "arena.sh": ("lab.world.yaml", "states.jsonl"),
     "bank.py": ("bank.yaml",),
     "calibrate.py": ("webcam.yaml",),
     "calibrate.sh": ("webcam.yaml", "webcam.html", "tables/camera.csv"),
@@ -74,6 +76,8 @@ WRITTEN = {
     "twin_render.sh": ("desk/truth.jsonl", "desk.jsonl"),
 }
 SAID = {
+    "arena.sh": "camera at x",
+    "arena_state.py": "robot 1 knows of [2]",
     "bank.py": "at focus 53: fx 1005.",
     "calibrate.py": "8 views leave projections uncertain",
     "calibrate.sh": "8 views leave projections uncertain",
@@ -137,6 +141,32 @@ def write_ways(folder: Path) -> None:
         (folder / name).write_text("\n".join(lines), "utf-8")
 
 
+def write_arena(folder: Path) -> None:
+    """Write an arena's file with its camera, a picture of its floor, and two robots that drive."""
+    shutil.copy(ARENAS / "lab.yaml", folder)
+    ceiling = Camera(960, 540, (640.0, 640.0), (478.0, 272.0))
+    save_camera(ceiling, folder / "ceiling.yaml")
+    down = Rotation.from_euler("x", 180, degrees=True)
+    T_camera_world = RigidTransform.from_components([0.0, 0.0, 1.5], down)
+    floor = [
+        MountedMarker("tag36h11", 100 + n, 0.12, RigidTransform.from_translation([x, y, 0.0]))
+        for n, (x, y) in enumerate(((0, 0), (0.9, 0), (0.85, 0.45), (-0.85, -0.45)))
+    ]
+    (folder / "drive").mkdir()
+    for k in range(4):
+        robots = [
+            MountedMarker(
+                "tag36h11", n, 0.08, RigidTransform.from_translation([x, 0.02 * k, 0.093])
+            )
+            for n, x in ((1, -0.3), (2, -0.6))
+        ]
+        shown = [*floor, *robots] if k else floor
+        pixels = render(shown, T_camera_world, ceiling, np.random.default_rng(k))
+        cv2.imwrite(
+            str(folder / ("drive" if k else "") / (f"{k}.png" if k else "floor.png")), pixels
+        )
+
+
 def write_video(path: Path, image: GreyPixels) -> None:
     av = pytest.importorskip("av", reason="videos need the part video")
     with av.open(str(path), "w") as container:
@@ -197,6 +227,8 @@ def test_example_runs(name: str, shelf: Path, tmp_path: Path) -> None:
     shutil.copy(SCENES / "desk.yaml", tmp_path)
     shutil.copy(MAPS / "hall.yaml", tmp_path)
     shutil.copytree(shelf / "boards", tmp_path / "boards")
+    if name.startswith("arena"):
+        write_arena(tmp_path)
     write_ways(tmp_path)
     if "av" in NEEDS.get(name, []):
         write_video(tmp_path / "video.mp4", photograph(FLOOR, tilt_deg=10, depth_m=1.2))

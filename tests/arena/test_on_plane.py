@@ -149,3 +149,14 @@ def test_refuses_numbers_that_no_robot_has(kind: Callable[[], object], match: st
 
 def test_a_robots_key_is_not_shown() -> None:
     assert "secret" not in repr(replace(robot(1), key=b"secret"))
+
+
+def test_the_quick_start_of_a_fit_is_near_and_the_fit_exact() -> None:
+    rng = np.random.default_rng(5)
+    pixels = rng.uniform(0, [1919, 1079], (300, 2))
+    exact = VIEW.points_on_plane(pixels, 0.1)
+    near = VIEW.points_near_plane(pixels, 0.1)
+    assert np.abs(near - exact).max() < 1e-3
+    assert np.isnan(VIEW.points_near_plane(np.array([[np.nan, 5.0]]))).all()
+    at_corner = sight([seen(robot(3), np.array([0.95, 0.6, 1.0]))], Roster((robot(3),)), VIEW)
+    np.testing.assert_allclose(at_corner.places[0], [0.95, 0.6, 1.0], atol=1e-9)

@@ -89,6 +89,11 @@ class _Crowd:
         numbers = [(one.x_m, one.y_m, one.heading_rad) for one in self.world.robots]
         return np.array(numbers, dtype=np.float64).reshape(-1, 3)
 
+    @cached_property
+    def polar(self) -> tuple[Array, Array]:
+        """Ranges and bearings of all robots (columns) from each (rows), each of shape (n, n)."""
+        return _polar(self.places[:, None, :], self.places[None, :, :2])
+
 
 @dataclass
 class Neighbourhood:
@@ -130,8 +135,9 @@ class Neighbourhood:
         crowd = self._crowd_at(time_s - sensor.delay_s)
         if crowd is None or robot_id not in crowd.rows:
             return Told(robot_id, time_s, (), ())
-        rng = self._rngs.setdefault(robot_id, np.random.default_rng([self.seed, robot_id]))
-        row = crowd.rows[robot_id]
+        if robot_id not in self._rngs:
+            self._rngs[robot_id] = np.random.default_rng([self.seed, robot_id])
+        row, rng = crowd.rows[robot_id], self._rngs[robot_id]
         neighbours = self._neighbours(crowd, row, sensor, rng, time_s)
         return Told(robot_id, time_s, neighbours, self._near(crowd.places[row], sensor, rng))
 
@@ -149,7 +155,7 @@ class Neighbourhood:
         time_s: float,
     ) -> tuple[Neighbour, ...]:
         own, robots = crowd.places[row], crowd.world.robots
-        ranges, bearings = _polar(own, crowd.places[:, :2])
+        ranges, bearings = (values[row] for values in crowd.polar)
         is_sensed = _within(ranges, bearings, sensor)
         is_sensed[row] = False
         if sensor.line_of_sight:
@@ -220,9 +226,9 @@ def sensed(exact: Array, sensor: NeighbourSensor, rng: np.random.Generator) -> A
 
 
 def _polar(own: Array, places: Array) -> tuple[Array, Array]:
-    """Return ranges and bearings of places (n, 2) from (x, y, heading), each of shape (n,)."""
-    x, y = (places - own[:2]).T
-    return np.hypot(x, y), wrap_angle_rad(np.arctan2(y, x) - own[2])
+    """Return ranges and bearings of places (..., 2) from (x, y, heading) (..., 3)."""
+    x, y = np.moveaxis(places - own[..., :2], -1, 0)
+    return np.hypot(x, y), wrap_angle_rad(np.arctan2(y, x) - own[..., 2])
 
 
 def _within(ranges: Array, bearings: Array, sensor: NeighbourSensor) -> BoolArray:

@@ -11,9 +11,11 @@ so that the covariance of p is A^-1 S A^-T for a pixel of covariance S. A camera
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from tagmetry.arena.ray_table import RayTable
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform, cross_matrix
 
@@ -43,12 +45,23 @@ class OverheadView:
         Returns:
             World points, shape (..., 3), metres; NaN where the ray misses the plane.
         """
+        return self._meet(self.camera.unproject(pixels), height_m)
+
+    def _meet(self, rays_camera: Array, height_m: Array | float) -> Array:
+        """Return where rays of the camera's frame meet level planes."""
         origin = np.asarray(self.T_world_camera.translation)
-        rays = self.camera.unproject(pixels) @ self._R_world_camera.T
+        rays = rays_camera @ self._R_world_camera.T
         with np.errstate(divide="ignore", invalid="ignore"):
             scale = (height_m - origin[2]) / rays[..., 2]
             hits = np.isfinite(scale) & (scale > 0)
         return np.asarray(origin + np.where(hits, scale, np.nan)[..., None] * rays)
+
+    def points_near_plane(self, pixels: Array, height_m: Array | float = 0.0) -> Array:
+        """Return `points_on_plane` to a fraction of a pixel, much quicker, to begin a fit with."""
+        rays = self._table.rays(pixels)
+        if not np.isfinite(rays).all():
+            return self.points_on_plane(pixels, height_m)
+        return self._meet(rays, height_m)
 
     def project(self, p_world: Array) -> tuple[Array, Array]:
         """Return pixels, shape (..., 2), and d(pixel) / d(world point), shape (..., 2, 3)."""
@@ -62,7 +75,11 @@ class OverheadView:
         arm = cross_matrix(p_world - self.T_world_camera.translation)
         return np.concatenate([-by_point, by_point @ arm], axis=-1)
 
-    @property
+    @cached_property
+    def _table(self) -> RayTable:
+        return RayTable.of(self.camera)
+
+    @cached_property
     def _R_world_camera(self) -> Array:  # noqa: N802 (a frame's name)
         return np.asarray(self.T_world_camera.rotation.as_matrix())
 

@@ -59,7 +59,7 @@ def fit_squares(
         The fits; NaN where a ray misses its plane.
     """
     weights = np.asarray(np.linalg.inv(covariances_px2), dtype=np.float64)
-    places = _started(view.points_on_plane(corners_px, heights_m[:, None]))
+    places = _started(view.points_near_plane(corners_px, heights_m[:, None]))
     for _ in range(_STEPS):
         at = _Linearized.at(view, corners_px, weights, places, sizes_m, heights_m)
         places = places + np.einsum("nij,nj->ni", at.gain, at.residuals)
