@@ -59,3 +59,16 @@ def test_views_without_patches_and_boards_without_crossings_stay_as_they_are(
         assert (before is after) == (i % 2 == 0)
     other = look_again(first, findings, GridBoard(4, 3, 0.04, 0.01))
     assert all(a is b for a, b in zip(first.views, other, strict=True))
+
+
+def test_a_curvature_that_is_carried_to_the_border_is_doubted(
+    looked: tuple[list[BoardFindings], list[Array], Calibration],
+) -> None:
+    """Without the doubt the mean square would be 3."""
+    findings, truths, _ = looked
+    squares = []
+    for one, truth in zip(findings, truths, strict=True):
+        errors = one.result.corners_px - truth[one.result.points]
+        inverse = np.linalg.inv(one.result.covariances_px2)
+        squares.append(np.einsum("ni,nij,nj->n", errors, inverse, errors) / 2)
+    assert np.concatenate(squares).mean() < 2.0
