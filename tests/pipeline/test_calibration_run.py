@@ -16,6 +16,7 @@ from tagmetry.files.board_text import parse_board
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import Chessboard
+from tagmetry.pipeline import board_pictures
 from tagmetry.pipeline.board_pictures import Sighting, look, sightings, thumbnail
 from tagmetry.pipeline.calibration import (
     CalibrationRun,
@@ -152,6 +153,25 @@ def test_what_a_picture_gave_is_kept_in_order() -> None:
     for small, large in zip(run.thumbnails, rendered(6), strict=True):
         np.testing.assert_array_equal(small, thumbnail(large))
     assert [one.source for one in run.facts.rejected] == ["blank.png"]
+
+
+def test_a_very_long_video_keeps_the_pixels_of_its_first_views_only(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    images = [Image(pixels, source=f"{i}.png") for i, pixels in enumerate(rendered(6))]
+    one = next(iter(sightings(images, BOARD))).patches.pixels.nbytes
+    monkeypatch.setattr(board_pictures, "_MOST_BYTES", int(3.5 * one))
+    seen = tuple(sightings(images, BOARD))
+    kept = [each.patches is not None for each in seen]
+    assert kept == sorted(kept, reverse=True)
+    assert 1 <= sum(kept) < 6
+    run = run_calibration(seen, Request(BOARD, "brown1"))
+    assert [view.source for view in run.calibration.views] == [f"{i}.png" for i in range(6)]
+    moved = [
+        (view.corners_px != first.result.corners_px).any()
+        for view, first in zip(run.calibration.views, seen, strict=True)
+    ]
+    assert moved == kept
 
 
 def test_of_many_views_those_that_tell_most_are_taken() -> None:

@@ -17,6 +17,7 @@ from tagmetry.markers import Board
 
 _THUMBNAIL_PX = 240
 _LOOKED_AT = 6  # pictures that the doctor looks at
+_MOST_BYTES = 500_000_000  # of patches; views of a very long video keep their first corners
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +45,7 @@ def sightings(images: Iterable[Image], board: Board) -> Iterator[Sighting]:
         board: What to look for.
     """
     following = iter(images)
-    looked_at = 0
+    looked_at = kept_bytes = 0
     while True:
         try:
             image = next(following)
@@ -55,7 +56,12 @@ def sightings(images: Iterable[Image], board: Board) -> Iterator[Sighting]:
             continue
         seen = look(image, board)
         looked_at += 1
-        yield seen if looked_at <= _LOOKED_AT else replace(seen, pixels=None)
+        kept_bytes += seen.patches.pixels.nbytes if seen.patches is not None else 0
+        yield replace(
+            seen,
+            pixels=seen.pixels if looked_at <= _LOOKED_AT else None,
+            patches=seen.patches if kept_bytes <= _MOST_BYTES else None,
+        )
 
 
 def look(image: Image, board: Board) -> Sighting:
