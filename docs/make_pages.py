@@ -11,6 +11,8 @@ import typer
 from typer.core import TyperArgument, TyperCommand, TyperGroup, TyperOption
 
 import tagmetry.cli.main
+from tagmetry.link.layout import Layout
+from tagmetry.link.wire import BODIES, HEADER
 from tagmetry.markers import family, family_names
 
 DOCS = Path(__file__).parent
@@ -110,10 +112,37 @@ def shown(example: re.Match[str]) -> str:
     return f"<!-- {example['path']} -->\n```{example['kind']}\n{text}```"
 
 
+def wire_tables() -> str:
+    """Return what every packet of the link is, byte by byte."""
+    parts = [layout_table("Header", "every packet", HEADER)]
+    for body in BODIES.values():
+        title = f"{body.kind.name} ({int(body.kind)})"
+        parts.append(layout_table(title, f"from the {body.sender}. {body.meaning}", body.layout))
+        if body.item is not None:
+            parts.append(f"then any number of times, {body.item.size_bytes} bytes each:\n")
+            parts.append(rows_of_layout(body.item))
+    return "\n".join(parts)
+
+
+def layout_table(title: str, about: str, layout: Layout) -> str:
+    """Return the part of the page about one layout."""
+    head = f"### {title}\n\n{layout.size_bytes} bytes, {about}\n"
+    return f"{head}\n{rows_of_layout(layout)}" if layout.fields else head
+
+
+def rows_of_layout(layout: Layout) -> str:
+    """Return one row for each field."""
+    rows = ["| at | field | type | |", "|---|---|---|---|"]
+    places = layout.offsets_bytes()
+    rows += [f"| {places[f.name]} | `{f.name}` | {f.c_type} | {f.meaning} |" for f in layout.fields]
+    return "\n".join(rows) + "\n"
+
+
 PAGES: dict[str, Callable[[], str]] = {
     "README.md": readme,
     "docs/cli.md": command_line,
     "docs/generated/forgiven.md": forgiven_bits,
+    "docs/generated/wire.md": wire_tables,
 }
 
 

@@ -33,7 +33,10 @@ def test_reference_describes_exactly_the_public_names() -> None:
     assert sorted(described) == sorted(set(tagmetry.__all__) - {"__version__"})
 
 
-@pytest.mark.parametrize("name", ["README.md", "docs/cli.md", "docs/generated/forgiven.md"])
+@pytest.mark.parametrize(
+    "name",
+    ["README.md", "docs/cli.md", "docs/generated/forgiven.md", "docs/generated/wire.md"],
+)
 def test_written_pages_are_what_the_program_says(name: str) -> None:
     page = load_make_pages().PAGES[name]()
     assert (ROOT / name).read_text(encoding="utf-8") == page, "run `make pages`"

@@ -4,6 +4,7 @@ import typer
 
 from tagmetry.cli.arena_audit import audit
 from tagmetry.cli.arena_calibrate import calibrate
+from tagmetry.cli.arena_client import client, key
 from tagmetry.cli.arena_mount import mount
 from tagmetry.cli.arena_recording import export, replay
 from tagmetry.cli.arena_run import run
@@ -15,3 +16,5 @@ app.command()(mount)
 app.command()(run)
 app.command()(replay)
 app.command()(export)
+app.command()(client)
+app.command()(key)
