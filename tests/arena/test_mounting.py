@@ -77,6 +77,17 @@ def test_the_drives_deviation_is_right() -> None:
     assert np.sqrt((errors**2).mean()) == pytest.approx(1.0, abs=0.35)
 
 
+def test_a_drive_that_is_not_quite_straight_has_a_larger_deviation() -> None:
+    rng, errors = np.random.default_rng(8), []
+    still = offset_from_spin(spin())
+    for _ in range(200):
+        places = drive()
+        places[:, :2] += 3e-3 * rng.standard_normal((len(places), 2))
+        found = turn_from_drive(places, still)
+        errors.append(found.value / found.sd)
+    assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(1.0, abs=0.15)
+
+
 def test_a_robot_that_slips_while_it_turns_is_told_by_the_rms() -> None:
     places = spin()
     places[:, 0] += np.linspace(0, 0.03, len(places))

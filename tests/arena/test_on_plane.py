@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from overhead import CAMERA, VIEW, moved, robot, seen
+from scipy.optimize import least_squares
 
 from tagmetry.arena import Mount, OverheadView, Roster, point_on_plane, sight
 from tagmetry.errors import InputError
@@ -160,3 +161,34 @@ def test_the_quick_start_of_a_fit_is_near_and_the_fit_exact() -> None:
     assert np.isnan(VIEW.points_near_plane(np.array([[np.nan, 5.0]]))).all()
     at_corner = sight([seen(robot(3), np.array([0.95, 0.6, 1.0]))], Roster((robot(3),)), VIEW)
     np.testing.assert_allclose(at_corner.places[0], [0.95, 0.6, 1.0], atol=1e-9)
+
+
+def test_pixels_move_with_the_camera_as_they_are_said_to() -> None:
+    p_world = np.random.default_rng(6).uniform([-0.8, -0.5, 0], [0.8, 0.5, 0.3], (7, 3))
+    pixels, by_point = VIEW.project(p_world)
+    said = VIEW.by_camera(p_world, by_point)
+    for axis, change in enumerate(1e-6 * np.eye(6)):
+        found = (moved(VIEW, change).project(p_world)[0] - pixels) / 1e-6
+        np.testing.assert_allclose(said[..., axis], found, atol=2e-2)  # of some 500 px / m
+
+
+def test_a_fit_is_the_least_squares_of_the_corners() -> None:
+    """SciPy, from another parametrization, and with a covariance that is not round."""
+    rng = np.random.default_rng(7)
+    root = 0.05 * (np.eye(8) + 0.3 * rng.standard_normal((8, 8)))
+    one = robot(3)
+    for place in rng.uniform([-0.9, -0.55, -3], [0.9, 0.55, 3], (10, 3)):
+        clean = seen(one, place)
+        noisy = clean.corners_px + (root @ rng.standard_normal(8)).reshape(4, 2)
+        detection = replace(clean, corners_px=noisy, corners_cov_px2=root @ root.T)
+
+        def residuals(numbers: np.ndarray, noisy: np.ndarray = noisy) -> np.ndarray:
+            return np.linalg.solve(root, (seen(one, numbers).corners_px - noisy).ravel())
+
+        best = least_squares(residuals, place, xtol=1e-15, ftol=1e-15, gtol=1e-15)
+        found = sight([detection], Roster((one,)), VIEW)
+        np.testing.assert_allclose(found.places[0], best.x, atol=5e-7)
+        assert found.chi2[0] == pytest.approx(2 * best.cost, rel=1e-4)
+        np.testing.assert_allclose(
+            found.noise[0], np.linalg.inv(best.jac.T @ best.jac), rtol=1e-2, atol=1e-9
+        )

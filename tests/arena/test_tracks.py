@@ -249,3 +249,21 @@ def test_refuses_motion_without_noise(name: str) -> None:
 def test_refuses_rules_that_believe_nothing() -> None:
     with pytest.raises(InputError, match="must be positive"):
         TrackRules(forget_s=0.0)
+
+
+def test_covariance_is_carried_as_the_mean_is() -> None:
+    """Against finite differences of the mean, for robots that turn quickly."""
+    quiet = Motion(1e-9, 1e-9, 1e-9)
+    mean = np.array([[0.1, 0.2, 0.5, 0.6, 3.0], [0.0, 0.0, -2.0, -0.4, -1.0]])
+    step_s, small = 0.08, 1e-6
+    F = np.empty((2, 5, 5))
+    for axis in range(5):
+        change = small * np.eye(5)[axis]
+        ends = [
+            quiet.moved(mean + sign * change, np.zeros((2, 5, 5)), step_s)[0] for sign in (1, -1)
+        ]
+        F[:, :, axis] = (ends[0] - ends[1]) / (2 * small)
+    root = np.random.default_rng(5).standard_normal((2, 5, 5))
+    before = root @ root.mT
+    _, after = quiet.moved(mean, before, step_s)
+    np.testing.assert_allclose(after, F @ before @ F.mT, rtol=2e-4, atol=3e-4)

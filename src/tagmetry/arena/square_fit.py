@@ -16,7 +16,7 @@ from tagmetry.arena.on_plane import OverheadView
 from tagmetry.geometry import Array
 
 FREEDOM = 5
-_STEPS = 2  # of Gauss and Newton; a third one would move by less than a nanometre
+_STEPS = 1  # of Gauss and Newton; a second one would move by less than a micrometre
 _CORNERS = np.array([[0.5, 0.5], [0.5, -0.5], [-0.5, -0.5], [-0.5, 0.5]])  # forward, left
 
 
