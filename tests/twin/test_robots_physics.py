@@ -145,6 +145,16 @@ def test_encoders_count_whole_steps_of_the_wheels():
     assert ((gap >= 0) & (gap < 2 * np.pi / DESIGN.encoder_steps)).all()
 
 
+@pytest.mark.parametrize("turn_rad", [0.0, np.pi / 2])
+def test_two_robots_touch_where_their_bodies_do(turn_rad):
+    physics = RobotsPhysics([(DESIGN, HERE), (DESIGN, Place(0.0, 0.165, turn_rad))])
+    physics.step(0.1)
+    assert not physics.touching()
+    physics = RobotsPhysics([(DESIGN, HERE), (DESIGN, Place(0.0, 0.1595, turn_rad))])
+    physics.step(0.004)
+    assert physics.touching() == {(0, 1)}
+
+
 def test_a_wall_stops_it():
     physics = alone(blocks=(Block(0.5, 0.0, 0.1, 1.0),))
     physics.want(0, Twist(0.3, 0.0))

@@ -5,10 +5,11 @@ a and a delay t between what is known and what is done,
 
     v t + v^2 / (2 a) <= g      so      v = a (sqrt(t^2 + 2 g / a) - t)
 
-The other is taken to keep its place: both sides keep their half of the gap where both come.
-Turning on the spot is always free, so a robot can leave.
+Another robot may come toward it just so: each takes half of the gap between them. Turning on the
+spot is always free, so a robot can leave.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import cos, inf, pi, sqrt
 
@@ -31,7 +32,7 @@ class ShieldRules:
     """
 
     diameter_m: float = 0.160
-    gap_m: float = 0.01
+    gap_m: float = 0.02
     braking_mps2: float = 1.0
     delay_s: float = 0.1
     fence: Fence | None = None
@@ -57,7 +58,11 @@ class Shielded:
 def shielded(wanted: Twist, view: View, rules: ShieldRules) -> Twist:
     """Return the wanted motion, as slow as what is ahead of it demands; turns stay as they are."""
     front_rad = 0.0 if wanted.speed_mps >= 0 else pi
-    limits_mps = [*_by_neighbours(view, front_rad, rules), *_by_obstacles(view, front_rad, rules)]
+    sweep_rad = abs(wanted.turn_rate_radps) * rules.delay_s
+    limits_mps = [
+        _toward(gap_m, turned_rad(bearing_rad - front_rad), sweep_rad, rules)
+        for gap_m, bearing_rad in _gaps(view, rules)
+    ]
     limits_mps.append(_by_fence(view, front_rad, rules))
     slowed_mps = min(abs(wanted.speed_mps), *limits_mps)
     return Twist(slowed_mps if front_rad == 0 else -slowed_mps, wanted.turn_rate_radps)
@@ -71,25 +76,21 @@ def stoppable_mps(gap_m: float, rules: ShieldRules) -> float:
     return braking * (sqrt(delay_s**2 + 2 * gap_m / braking) - delay_s)
 
 
-def _by_neighbours(view: View, front_rad: float, rules: ShieldRules) -> list[float]:
-    limits_mps = []
+def _gaps(view: View, rules: ShieldRules) -> Iterator[tuple[float, float]]:
+    """Yield how far the robot may go toward each thing, and where that is."""
     for other in view.neighbours:
-        free_m = other.range_m - rules.diameter_m - rules.gap_m
-        limits_mps.append(_toward(free_m, other.bearing_rad - front_rad, rules))
-    return limits_mps
+        yield (other.range_m - rules.diameter_m - rules.gap_m) / 2, other.bearing_rad
+    for one in view.obstacles:
+        yield one.range_m - rules.diameter_m / 2 - rules.gap_m, one.bearing_rad
 
 
-def _by_obstacles(view: View, front_rad: float, rules: ShieldRules) -> list[float]:
-    reach_m = rules.diameter_m / 2 + rules.gap_m
-    return [
-        _toward(one.range_m - reach_m, one.bearing_rad - front_rad, rules) for one in view.obstacles
-    ]
+def _toward(gap_m: float, off_rad: float, sweep_rad: float, rules: ShieldRules) -> float:
+    """Return the speed ahead whose part toward a thing that lies off to a side is stoppable.
 
-
-def _toward(free_m: float, off_rad: float, rules: ShieldRules) -> float:
-    """Return the speed ahead whose part toward a thing that lies off to a side is stoppable."""
-    part = cos(turned_rad(off_rad))
-    return stoppable_mps(free_m, rules) / part if part > 0.05 else inf
+    Until it can know better, the robot may have turned toward it by the sweep.
+    """
+    part = cos(max(abs(off_rad) - sweep_rad, 0.0))
+    return stoppable_mps(gap_m, rules) / part if part > 0.05 else inf
 
 
 def _by_fence(view: View, front_rad: float, rules: ShieldRules) -> float:

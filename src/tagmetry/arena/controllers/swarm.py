@@ -22,12 +22,14 @@ class Manner:
     Attributes:
         speed_mps: At most.
         turn_per_s: How soon it faces where it goes.
+        turn_radps: How fast it turns at most.
         pull_per_s: Wished speed per metre that it is off.
         idle_mps: Slower wishes are not worth a turn.
     """
 
     speed_mps: float = 0.15
     turn_per_s: float = 4.0
+    turn_radps: float = 3.0
     pull_per_s: float = 1.5
     idle_mps: float = 0.005
 
@@ -42,7 +44,7 @@ class Aggregate:
         search: What it does while it senses nobody: a wide circle.
     """
 
-    distance_m: float = 0.25
+    distance_m: float = 0.3
     manner: Manner = Manner()
     search: Twist = WIDE_CIRCLE
 
@@ -117,7 +119,9 @@ def driven(x_m: float, y_m: float, manner: Manner) -> Twist:
     if wish_mps < manner.idle_mps:
         return STILL
     bearing_rad = atan2(y_m, x_m)
-    return Twist(wish_mps * max(cos(bearing_rad), 0.0), manner.turn_per_s * bearing_rad)
+    turn_radps = manner.turn_per_s * bearing_rad
+    turn_radps = max(-manner.turn_radps, min(turn_radps, manner.turn_radps))
+    return Twist(wish_mps * max(cos(bearing_rad), 0.0), turn_radps)
 
 
 def _pushed(view: View, distance_m: float) -> tuple[float, float]:

@@ -6,10 +6,14 @@ from typing import Protocol
 import numpy as np
 
 from tagmetry.arena import OverheadView, Robot
-from tagmetry.detect import Detection
+from tagmetry.detect import Detection, Detector, Tracker
 from tagmetry.geometry import RigidTransform
+from tagmetry.geometry.arrays import AnyPixels
+from tagmetry.markers import family
 from tagmetry.markers.bodies import marker_corners_m
-from tagmetry.twin.robots.overhead import T_robot_marker
+from tagmetry.twin.rendering import Shot
+from tagmetry.twin.robots.overhead import OverheadPictures, T_robot_marker
+from tagmetry.twin.scenes import Scene
 
 
 class Eye(Protocol):
@@ -60,6 +64,36 @@ class CornerEye:
         robot = self._robots[number]
         covariance = self._noise_px**2 * np.eye(8)
         return Detection(robot.family, robot.marker_id, corners_px, covariance, 0, 1.0)
+
+
+class PictureEye:
+    """Takes pictures and finds the markers in them, as the real camera and detector do.
+
+    Attributes:
+        pixels: The last picture; None before the first.
+    """
+
+    def __init__(
+        self, robots: Sequence[Robot], floor: Scene, shot: Shot, rng: np.random.Generator
+    ) -> None:
+        """Look at robots.
+
+        Args:
+            robots: In the order of the scenario.
+            floor: All that does not move.
+            shot: The camera at its place.
+            rng: Where the sensor's noise comes from.
+        """
+        self.pixels: AnyPixels | None = None
+        self._pictures = OverheadPictures(floor, robots, shot)
+        self._camera, self._rng = shot.camera, rng
+        names = dict.fromkeys(robot.family for robot in robots)
+        self._tracker = Tracker(Detector([family(name) for name in names]))
+
+    def look(self, time_s: float, Ts_world_robot: RigidTransform) -> tuple[Detection, ...]:
+        """Return the markers that the detector finds in a picture."""
+        self.pixels = self._pictures.take(Ts_world_robot, self._rng)
+        return self._tracker.track(self.pixels, time_s, self._camera)
 
 
 def _corners_m(robot: Robot) -> np.ndarray:

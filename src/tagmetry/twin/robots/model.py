@@ -48,7 +48,7 @@ def arena_xml(robots: Sequence[tuple[RobotDesign, Place]], blocks: Sequence[Bloc
   <compiler angle="radian"/>
   <option timestep="{TIME_STEP_S}" integrator="implicitfast" cone="elliptic" impratio="20"/>
   <worldbody><geom name="floor" type="plane" size="50 50 1"
-    contype="3" conaffinity="3"/>{boxes}{bodies}</worldbody>
+    contype="1" conaffinity="3"/>{boxes}{bodies}</worldbody>
   <actuator>{servos}</actuator>
 </mujoco>"""
 
@@ -79,7 +79,7 @@ def _wheel(name: str, y_m: float, design: RobotDesign) -> str:
     return f"""<body name="{name}" pos="0 {y_m} {radius_m}">
         <joint name="{name}" axis="0 1 0" armature="{design.rotor_inertia_kgm2}"
           frictionloss="{design.gear_drag_nm}"/>
-        <geom name="{name}" type="sphere" size="{radius_m}" contype="2" conaffinity="2"
+        <geom name="{name}" type="sphere" size="{radius_m}" contype="2" conaffinity="0"
           mass="{design.wheel_mass_kg}" friction="{design.wheel_friction} 0 0" priority="2"/>
       </body>"""
 

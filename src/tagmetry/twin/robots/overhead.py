@@ -18,7 +18,7 @@ from tagmetry.arena.robot import Robot
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.arrays import AnyPixels, FloatImage
 from tagmetry.geometry.transforms import Rotation
-from tagmetry.markers import MountedMarker
+from tagmetry.markers import MountedMarker, family
 from tagmetry.twin.optics.sensor import developed
 from tagmetry.twin.optics.vignetting import gain_map
 from tagmetry.twin.rendering import Shot, exposed
@@ -159,7 +159,7 @@ def _side_m(roof: _Roof) -> float:
 
 def _roof(robot: Robot) -> _Roof:
     sheet = _marker_paper(robot)
-    cells = _cells(sheet)
+    cells = _cells(sheet, 1.0 - family(robot.family).picture(robot.marker_id).astype(float))
     side = len(cells)
     scale = side / sheet.width_m
     middle = side / 2 - 0.5
@@ -195,8 +195,6 @@ def _marker_paper(robot: Robot) -> Sheet:
     )
 
 
-def _cells(sheet: Sheet) -> FloatImage:
+def _cells(sheet: Sheet, ink: Array) -> FloatImage:
     """Return the reflectance of a marker's paper, cell by cell."""
-    (printed,) = sheet.prints
-    ink = np.pad(printed.ink, 1)
-    return np.asarray(sheet.paper + (sheet.ink - sheet.paper) * ink, np.float32)
+    return np.asarray(sheet.paper + (sheet.ink - sheet.paper) * np.pad(ink, 1), np.float32)
