@@ -1,2 +1,2 @@
-tagmetry print sheet --family tag36h11 --ids 1-24 --size 50mm --out robots.pdf
-tagmetry print marker --family tag36h11 --id 0 --size 140mm --out floor.pdf
+tagmetry print sheet --family tag36h11 --ids 1-24 --size 80mm --out robots.pdf
+tagmetry print sheet --family tag36h11 --ids 100-103 --size 120mm --out floor.pdf
