@@ -1,7 +1,9 @@
 """The body of NEIGHBOURS: millimetres and ten-thousandths of a radian, ten bytes for each."""
 
-import math
 import struct
+from itertools import chain
+from math import remainder, tau
+from operator import attrgetter
 
 from tagmetry.errors import InputError
 from tagmetry.link.layout import Kind
@@ -12,6 +14,7 @@ _HEAD = BODIES[Kind.NEIGHBOURS].layout.packing
 _ITEM = NEIGHBOUR.packing
 _ANGLE_RAD = 1e-4
 _FARTHEST_MM = 0xFFFF
+_ITEMS = ["<" + _ITEM.format[1:] * count for count in range(MOST_NEIGHBOURS + 1)]
 
 
 def pack_neighbours(message: Neighbours) -> bytes:
@@ -20,13 +23,13 @@ def pack_neighbours(message: Neighbours) -> bytes:
     Raises:
         InputError: A number does not fit, or is not finite.
     """
-    seen = sorted(message.seen, key=lambda one: one.range_m)
+    seen = sorted(message.seen, key=attrgetter("range_m"))
     left_out = max(len(seen) - MOST_NEIGHBOURS, 0) + message.omitted
     seen = seen[:MOST_NEIGHBOURS]
     try:
-        limit_mm = _millimetres(message.range_limit_m)
+        limit_mm = round(min(1000 * message.range_limit_m, _FARTHEST_MM))
         head = _HEAD.pack(message.captured_us, limit_mm, len(seen), min(left_out, 255))
-        return head + b"".join(map(_packed, seen))
+        return head + struct.pack(_ITEMS[len(seen)], *chain.from_iterable(map(_numbers, seen)))
     except (struct.error, ValueError, OverflowError) as error:
         raise InputError(f"these neighbours cannot be sent: {error}; {message}") from None
 
@@ -41,12 +44,12 @@ def unpack_neighbours(body: bytes) -> Neighbours | None:
     return Neighbours(captured_us, limit_mm / 1000, seen, omitted)
 
 
-def _packed(one: Neighbour) -> bytes:
-    return _ITEM.pack(
+def _numbers(one: Neighbour) -> tuple[int, int, int, int, int, int]:
+    return (
         one.id,
-        _millimetres(one.range_m),
-        _ten_thousandths(one.bearing_rad),
-        _ten_thousandths(one.heading_rad),
+        min(round(1000 * one.range_m), _FARTHEST_MM),
+        round(remainder(one.bearing_rad, tau) / _ANGLE_RAD),
+        round(remainder(one.heading_rad, tau) / _ANGLE_RAD),
         min(round(1000 * one.age_s), 255),
         round(255 * min(max(one.quality, 0.0), 1.0)),
     )
@@ -57,11 +60,3 @@ def _neighbour(
 ) -> Neighbour:
     angles_rad = bearing * _ANGLE_RAD, heading * _ANGLE_RAD
     return Neighbour(robot, range_mm / 1000, *angles_rad, age_ms / 1000, quality / 255)
-
-
-def _millimetres(length_m: float) -> int:
-    return _FARTHEST_MM if length_m == math.inf else min(round(1000 * length_m), _FARTHEST_MM)
-
-
-def _ten_thousandths(angle_rad: float) -> int:
-    return round(math.remainder(angle_rad, math.tau) / _ANGLE_RAD)
