@@ -220,6 +220,23 @@ def test_an_assign_that_took_too_long_is_refused(air: Air) -> None:
     assert not air.to_robot(assign)
 
 
+def test_a_robot_that_is_held_may_not_steer_by_itself_either(air: Air) -> None:
+    air.link()
+    assert air.to_robot(air.send(Beat()))
+    assert air.robot.may_move(air.robot_us)
+    assert air.to_robot(air.send(Command(0.0, valid_for_ms=0)))
+    for _ in range(24):
+        air.wait(10_000)
+        assert air.to_robot(air.send(Beat()))
+        assert not air.robot.may_move(air.robot_us)
+    assert air.to_robot(air.send(Command(1.0)))  # a newer command lets it go at once,
+    assert air.robot.may_move(air.robot_us)
+    assert air.to_robot(air.send(Command(0.0, valid_for_ms=0)))
+    air.wait(251_000)  # and so does silence about it
+    assert air.to_robot(air.send(Beat()))
+    assert air.robot.may_move(air.robot_us)
+
+
 def test_the_emergency_stop_latches_until_it_is_released(air: Air) -> None:
     air.link()
     assert air.to_robot(air.send(EmergencyStop(4, 1)))

@@ -94,7 +94,10 @@ class Neighbours:
 
 @dataclass(frozen=True)
 class Command:
-    """How to move for `valid_for_ms` from the moment of sending; `lamp` from 0 to 65535."""
+    """How to move for `valid_for_ms` from the moment of sending; `lamp` from 0 to 65535.
+
+    A lifetime of 0 holds the robot: for 250 ms it may not steer by its neighbours either.
+    """
 
     forward_mps: float = 0.0
     left_mps: float = 0.0

@@ -164,11 +164,11 @@ BODIES: dict[Kind, Body] = {
                     Field("forward_mps", "float", "velocity along the robot's x"),
                     Field("left_mps", "float", "velocity along its y"),
                     Field("turn_radps", "float", "counter-clockwise"),
-                    Field("valid_for_ms", "uint16_t", "from `sent_us`; at most 250 are granted"),
+                    Field("valid_for_ms", "uint16_t", "from `sent_us`, 250 at most; 0: held"),
                     Field("lamp", "uint16_t", "brightness of a lamp, 0 to 65535"),
                 ),
             ),
-            "How to move, for a while; then the robot stands still by itself.",
+            "How to move, for a while; then it stands still. Held, it may not steer itself either.",
         ),
         Body(
             Kind.ODOMETRY,

@@ -76,16 +76,18 @@ class Robot:
         return self._session is not None
 
     def may_move(self, now_us: int) -> bool:
-        """Say whether the host is alive and no emergency stop is latched."""
+        """Say whether the host is alive, holds this robot not, and no emergency stop is latched."""
         if self._session is None or self._spoken_us is None or self._is_stopped:
+            return False
+        if self._command.valid_for_ms == 0 and self._command_age_us(now_us) <= SILENCE_US:
             return False
         return self.host_us(now_us) - self._spoken_us <= SILENCE_US
 
     def command(self, now_us: int) -> Command:
         """Return how to move now; to stand still where nothing else is granted."""
         lifetime_us = 1000 * min(self._command.valid_for_ms, LONGEST_COMMAND_MS)
-        age_us = self.host_us(now_us) - self._newest_us.get(Kind.COMMAND, 0)
-        return self._command if self.may_move(now_us) and age_us < lifetime_us else _STILL
+        is_valid = self._command_age_us(now_us) < lifetime_us
+        return self._command if is_valid and self.may_move(now_us) else _STILL
 
     def host_us(self, now_us: int) -> int:
         """Return the host's time, never earlier than it is; only while linked."""
@@ -132,6 +134,9 @@ class Robot:
                 self._spoken_us = max(self._spoken_us or 0, header.sent_us)
             self._obey(message, header, now_us)
         return message
+
+    def _command_age_us(self, now_us: int) -> int:
+        return self.host_us(now_us) - self._newest_us.get(Kind.COMMAND, 0)
 
     def _hello(self, now_us: int) -> bytes:
         _, body = pack_body(Hello(self._nonce, now_us))

@@ -62,7 +62,7 @@ class RobotClient:
 
     @property
     def may_move(self) -> bool:
-        """Whether the host is alive and no emergency stop is latched."""
+        """Whether the host is alive, holds this robot not, and no emergency stop is latched."""
         return self._robot.may_move(_now_us())
 
     @property

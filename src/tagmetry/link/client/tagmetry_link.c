@@ -115,9 +115,8 @@ static int fits(int kind, int body_bytes) {
 /* ---- replay: RFC 4303, section 3.4.3 ---- */
 
 static int is_new(const tm_robot *r, uint32_t counter) {
-    if (counter > r->highest) return 1;
     uint32_t back = r->highest - counter;
-    return counter > 0 && back < WINDOW && !(r->heard >> back & 1);
+    return counter > r->highest || (counter > 0 && back < WINDOW && !(r->heard >> back & 1));
 }
 
 static void remember(tm_robot *r, uint32_t counter) {
@@ -194,8 +193,7 @@ static void take_estop(tm_robot *r, const uint8_t *body) {
     memcpy(&estop, body, sizeof estop);
     if (estop.edition < r->edition) return;
     r->edition = estop.edition;
-    if (estop.order == 1) r->is_stopped = 1;
-    if (estop.order == 2) r->is_stopped = 0;
+    if (estop.order == 1 || estop.order == 2) r->is_stopped = estop.order == 1;
 }
 
 static void take_time(tm_robot *r, const uint8_t *body, uint64_t sent_us, uint64_t now_us) {
@@ -275,8 +273,7 @@ int tm_due(tm_robot *r, uint8_t *out, uint64_t now_us) {
         r->is_linked = r->has_asked = 0;
         r->nonce = tm_random();
     }
-    uint64_t pause_us = r->is_linked ? TM_TIME_US : TM_HELLO_US;
-    if (r->has_asked && now_us - r->asked_us < pause_us) return 0;
+    if (r->has_asked && now_us - r->asked_us < (r->is_linked ? TM_TIME_US : TM_HELLO_US)) return 0;
     r->has_asked = 1;
     r->asked_us = now_us;
     if (!r->is_linked) return seal_hello(r, out, now_us);
@@ -285,12 +282,15 @@ int tm_due(tm_robot *r, uint8_t *out, uint64_t now_us) {
 }
 
 int tm_may_move(const tm_robot *r, uint64_t now_us) {
-    if (!r->is_linked || r->spoken_us == 0 || r->is_stopped) return 0;
-    return (int64_t)(tm_host_us(r, now_us) - r->spoken_us) <= TM_SILENCE_US;
+    int64_t host_us = (int64_t)tm_host_us(r, now_us);
+    int is_held = r->command.valid_for_ms == 0 &&
+                  host_us - (int64_t)r->newest_us[TM_COMMAND] <= TM_SILENCE_US;
+    if (!r->is_linked || r->spoken_us == 0 || r->is_stopped || is_held) return 0;
+    return host_us - (int64_t)r->spoken_us <= TM_SILENCE_US;
 }
 
 tm_command_body tm_command(const tm_robot *r, uint64_t now_us) {
-    static const tm_command_body still = {0, 0, 0, 0, 0};
+    static const tm_command_body still = {0};
     int64_t age_us = (int64_t)(tm_host_us(r, now_us) - r->newest_us[TM_COMMAND]);
     int64_t longest_ms = r->command.valid_for_ms;
     if (longest_ms > TM_LONGEST_COMMAND_MS) longest_ms = TM_LONGEST_COMMAND_MS;

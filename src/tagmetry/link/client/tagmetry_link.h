@@ -129,7 +129,7 @@ int tm_due(tm_robot *robot, uint8_t *out, uint64_t now_us);
 int tm_seal(tm_robot *robot, int kind, const void *body, int body_bytes, uint8_t *out,
             uint64_t now_us);
 
-/* The host is alive and no emergency stop is latched. */
+/* The host is alive, does not hold this robot, and no emergency stop is latched. */
 int tm_may_move(const tm_robot *robot, uint64_t now_us);
 
 /* How to move now: all zeros where nothing else is granted. */

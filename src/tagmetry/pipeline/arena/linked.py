@@ -40,7 +40,7 @@ class LinkTaker:
         captured_us = round((result.taken_s + ahead_s) * _US)
         for one in result.decisions:
             if one.must_stop:
-                self._host.send(one.robot_id, Command())
+                self._host.send(one.robot_id, Command(valid_for_ms=0))
         for told in result.told:
             self._host.send(told.robot_id, self._neighbours(told, captured_us))
         if self._poses:
