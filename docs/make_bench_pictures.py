@@ -22,7 +22,8 @@ from tagmetry.lab.bench import (
     steps,
 )
 from tagmetry.lab.bench.goals import goals
-from tagmetry.lab.bench.picture import available, figure_of
+from tagmetry.lab.bench.panels import available
+from tagmetry.lab.bench.picture import figure_of
 from tagmetry.lab.bench.table import found, number
 from tagmetry.lab.engines import OURS, installed
 

@@ -6,7 +6,10 @@ from pathlib import Path
 from tagmetry.lab.report.chapter import chapters
 
 IMAGES = Path(__file__).parent / "images" / "lab"
-DRAWN = ("seed002_sights", "seed002_figure17", "seed003_figure12")
+DRAWN = (
+    "seed002_sights", "seed002_figure17", "seed003_figure12", "detector_side", "detector_motion",
+    "detector_light",
+)  # fmt: skip
 DPI = 80
 
 

@@ -30,7 +30,7 @@ from tagmetry.detect.photometric.threads import fit_by_threads
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
-FLOOR_PX = 0.0015  # what the model does not describe
+_FLOOR_PX = 0.0015  # what the model does not describe
 _LOST_PX = (2.5, 0.05)  # a corner that moved farther was another's; at least, and of the diagonal
 _BOWING_HALF_PX = 21.0  # smaller markers cannot tell a bow from noise
 _LEAST_CONTRAST = 4.0  # in noises
@@ -140,7 +140,7 @@ def _fitted(
             places[tells], joints[tells], half_px[tells], fits[tells, BOWS:]
         )
     moved_px = frames[:, None, :2] + half_px[:, None, None] * places
-    covariances_px2 = half_px[:, None, None] ** 2 * covariances + FLOOR_PX**2 * np.eye(8)
+    covariances_px2 = half_px[:, None, None] ** 2 * covariances + _FLOOR_PX**2 * np.eye(8)
     sound &= _plausible(moved_px, covariances_px2, corners_px, half_px)
     return Fitted(np.where(sound[:, None, None], moved_px, corners_px), covariances_px2, sound)
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tagmetry.lab.bench.axes import plain_numbers
 from tagmetry.lab.beside.limit_summary import Limits, Looks
 from tagmetry.lab.engines import OURS
 from tagmetry.lab.engines.palette import COLOURS
@@ -17,10 +18,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _RIGHT_DISTANCE2 = 8.0
+_COUNTED = "found where there is none"
 _PANELS: dict[str, Callable[[Looks], float]] = {
     "corners' error, px": lambda one: one.corner_px,
     "markers found, %": lambda one: 100 * one.recall,
-    "found where there is none": lambda one: one.false_positives,
+    _COUNTED: lambda one: one.false_positives,
     "error of the place, % of the distance": lambda one: one.position_percent,
     "flipped poses, %": lambda one: 100 * one.flipped,
     "squared distance, 8 is right": lambda one: one.distance2,
@@ -74,5 +76,8 @@ def _dress(axes: "Axes", variable: str, name: str) -> None:
     axes.set_xlabel(SWEEPS[variable].label)
     if SWEEPS[variable].logarithmic:
         axes.set_xscale("log")
+        plain_numbers(axes.xaxis)
+    if name == _COUNTED:
+        axes.set_ylim(bottom=-0.5, top=max(2.0, axes.get_ylim()[1]))
     if name in _LOGARITHMIC and axes.lines:
         axes.set_yscale("log")

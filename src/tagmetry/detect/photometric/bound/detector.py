@@ -2,8 +2,10 @@
 
 It finds more along with the corners than the bound takes as unknown: how light changes over the
 marker, a blur of its own in every direction, and the exponent in any case. It looks at the pixels
-beside edges only, of large markers at every second, third, ..., and trusts those less that lie far
-off. All that widens the covariance; what its model does not describe is added as it does itself.
+beside edges only, of large markers at every second, third, ... All that widens the covariance.
+
+It takes motion for a bell, not for the box that it is. What that costs is fitted to its errors on
+the twin's pictures: some of what the pixels tell, and a part that does not go with the noise.
 """
 
 import numpy as np
@@ -15,9 +17,10 @@ from tagmetry.detect.photometric.bound.edges import by_edges, edge_px
 from tagmetry.detect.photometric.bound.seen import Print, Window
 from tagmetry.detect.photometric.marker import BESIDE_PX, FINE_PIXELS
 from tagmetry.detect.photometric.pixels import FLAT
-from tagmetry.detect.photometric.refine import FLOOR_PX
 from tagmetry.geometry import Array
 
+_LOST_BY_MOTION = 0.03  # share of the variance, by the motion's square, px
+_LEFT_BY_MOTION = 3e-4  # px, by the motion's square
 _LARGE_PX = 100.0  # from here on a marker's derivatives are those of a smaller one
 
 
@@ -44,7 +47,14 @@ def detector_covariance_px2(corners_px: Array, seen: Print, noise: float) -> Arr
     )
     weights = _shares_used(window, seen, edges_px) / light.variances(white, seen, noise)
     known = first_covariances(np.concatenate(columns, axis=1) * np.sqrt(weights)[:, None])
-    return known / times + FLOOR_PX**2 * np.eye(8)
+    return _smeared(known / times, seen)
+
+
+def _smeared(covariance_px2: Array, seen: Print) -> Array:
+    """Return the covariance with what is lost by taking motion for a bell."""
+    motion2_px2 = float(np.dot(seen.motion_px, seen.motion_px))
+    left_px = _LEFT_BY_MOTION * motion2_px2
+    return (1 + _LOST_BY_MOTION * motion2_px2) * covariance_px2 + left_px**2 * np.eye(8)
 
 
 def _at_most(corners_px: Array, side_px: float) -> tuple[Array, float]:
