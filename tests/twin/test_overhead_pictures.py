@@ -61,7 +61,7 @@ def test_they_differ_by_little_anywhere(both):
     quick, true = both
     error = quick - true
     assert np.abs(error).max() < 20
-    assert np.sqrt((error[error != 0] ** 2).mean()) < 3
+    assert np.sqrt((error[error != 0] ** 2).mean()) < 5
 
 
 def test_corners_lie_where_they_truly_do(both):

@@ -8,12 +8,14 @@ from tagmetry.cli.arena_client import client, key
 from tagmetry.cli.arena_mount import mount
 from tagmetry.cli.arena_recording import export, replay
 from tagmetry.cli.arena_run import run
+from tagmetry.cli.arena_twin import twin
 
 app = typer.Typer(help="Robots under a ceiling camera.", no_args_is_help=True)
 app.command()(calibrate)
 app.command()(audit)
 app.command()(mount)
 app.command()(run)
+app.command()(twin)
 app.command()(replay)
 app.command()(export)
 app.command()(client)
