@@ -1,5 +1,6 @@
 """How the axes of the laboratory's pictures are written."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -28,10 +29,10 @@ def x_logarithmic(axes: "Axes") -> None:
     plain_numbers(axes.xaxis)
 
 
-def plain_numbers(axis: "Axis") -> None:
+def plain_numbers(axis: "Axis", steps: Sequence[float] = (1.0, 2.0, 5.0)) -> None:
     """Write a logarithmic axis' numbers as people do: 0.5, 1, 2, 50."""
     from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_locator(LogLocator(subs=steps))
     axis.set_major_formatter(FormatStrFormatter("%g"))
     axis.set_minor_formatter(NullFormatter())

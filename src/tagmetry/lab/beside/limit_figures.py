@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _RIGHT_DISTANCE2 = 8.0
+_WIDE = 100.0  # times; so many numbers leave no room for more
 _COUNTED = "found where there is none"
 _PANELS: dict[str, Callable[[Looks], float]] = {
     "corners' error, px": lambda one: one.corner_px,
@@ -74,9 +75,10 @@ def _bound(axes: "Axes", run: Limits, variable: str) -> None:
 def _dress(axes: "Axes", variable: str, name: str) -> None:
     axes.set_title(name, fontsize=10)
     axes.set_xlabel(SWEEPS[variable].label)
-    if SWEEPS[variable].logarithmic:
+    if (sweep := SWEEPS[variable]).logarithmic:
         axes.set_xscale("log")
-        plain_numbers(axes.xaxis)
+        is_wide = max(sweep.values) > _WIDE * min(sweep.values)
+        plain_numbers(axes.xaxis, (1.0,) if is_wide else (1.0, 2.0, 5.0))
     if name == _COUNTED:
         axes.set_ylim(bottom=-0.5, top=max(2.0, axes.get_ylim()[1]))
     if name in _LOGARITHMIC and axes.lines:

@@ -10,7 +10,7 @@ from tagmetry.pose.plan.predict import predict
 from tagmetry.pose.plan.reach import range_m, shortest_side_px
 from tagmetry.pose.plan.setup import Setup
 
-_NEAREST = 0.05  # of the range
+_NEAREST, _FARTHEST = 0.05, 0.999  # of the range
 _EDGE = 0.94  # of half the image's width: a marker is wider than a point
 
 
@@ -49,7 +49,7 @@ def over_volume(setup: Setup, columns: int = 11, rows: int = 10) -> Volume:
     width_px, height_px = setup.camera.size_px
     half_px = (width_px - 1) / 2
     u = half_px * (1 + _EDGE * np.linspace(-1, 1, columns))
-    distances_m = far_m * np.geomspace(_NEAREST, 1.0, rows)
+    distances_m = far_m * np.geomspace(_NEAREST, _FARTHEST, rows)
     places = [
         [replace(setup, pixel=(pixel, (height_px - 1) / 2), distance_m=d) for pixel in u.tolist()]
         for d in distances_m.tolist()
