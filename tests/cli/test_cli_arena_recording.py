@@ -141,3 +141,13 @@ def test_refusals_are_one_line(
     assert run(["arena", *arguments]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert reason in line
+
+
+def test_latency_needs_a_live_camera_and_a_robot_that_is_there(
+    table: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = ["arena", "latency", str(table / "drive"), str(table / "arena.yaml"), "--robot"]
+    assert run([*command, "9"]) == 2
+    assert "there is no robot 9" in capsys.readouterr().err
+    assert run([*command, "1"]) == 2
+    assert "is no live camera: nothing in it can obey" in capsys.readouterr().err

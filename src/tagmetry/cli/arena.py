@@ -5,6 +5,7 @@ import typer
 from tagmetry.cli.arena_audit import audit
 from tagmetry.cli.arena_calibrate import calibrate
 from tagmetry.cli.arena_client import client, key
+from tagmetry.cli.arena_latency import latency
 from tagmetry.cli.arena_mount import mount
 from tagmetry.cli.arena_recording import export, replay
 from tagmetry.cli.arena_run import run
@@ -20,3 +21,4 @@ app.command()(replay)
 app.command()(export)
 app.command()(client)
 app.command()(key)
+app.command()(latency)

@@ -13,6 +13,7 @@ from tagmetry.cli.options import CameraFile
 
 if TYPE_CHECKING:
     from tagmetry.files.arena import ArenaSetup
+    from tagmetry.link import Host
     from tagmetry.pipeline.arena import ArenaResult, Latency, Taker
     from tagmetry.record.mcap import Recorder
 
@@ -93,9 +94,19 @@ def _talkers(
     """Return who talks to the robots, if anybody shall."""
     if link is None:
         return []
+    from tagmetry.pipeline.arena.linked import LinkTaker
+
+    host = open_host(stack, setup, link, recorder)
+    range_m = setup.sensor.range_m if setup.sensor is not None else float("inf")
+    return [LinkTaker(host, range_m, poses=poses)]
+
+
+def open_host(
+    stack: ExitStack, setup: "ArenaSetup", link: str, recorder: "Recorder | None" = None
+) -> "Host":
+    """Return the link's host at an address like 192.168.1.5:47474, which is recorded if wanted."""
     from tagmetry.errors import InputError
     from tagmetry.link import PORT, Host, Packet
-    from tagmetry.pipeline.arena.linked import LinkTaker
     from tagmetry.pipeline.arena.recorded import packet_record
 
     def note(packet: Packet) -> None:
@@ -106,9 +117,7 @@ def _talkers(
     if port and not (port.isdecimal() and int(port) <= 0xFFFF):
         raise InputError(f"expected an address like 192.168.1.5:{PORT}, got {link[:40]!r}")
     at_port = int(port) if port else PORT
-    host = stack.enter_context(Host(setup.keys(), address, at_port, on_packet=note))
-    range_m = setup.sensor.range_m if setup.sensor is not None else float("inf")
-    return [LinkTaker(host, range_m, poses=poses)]
+    return stack.enter_context(Host(setup.keys(), address, at_port, on_packet=note))
 
 
 def _writers(
