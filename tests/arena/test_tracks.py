@@ -267,3 +267,23 @@ def test_covariance_is_carried_as_the_mean_is() -> None:
     before = root @ root.mT
     _, after = quiet.moved(mean, before, step_s)
     np.testing.assert_allclose(after, F @ before @ F.mT, rtol=2e-4, atol=3e-4)
+
+
+def test_a_robot_that_is_pushed_to_the_side_is_followed() -> None:
+    """It moves across its heading, and turns, as no wheels do; at 30 and at 6 images per second."""
+    for rate in (30.0, 6.0):
+        tracks = Tracks(ROSTER)
+        for k in range(int(3 * rate)):
+            t = k / rate
+            place = np.array([0.0, 0.4 * np.sin(t), float(wrap_angle_rad(2.0 * t))])
+            events = tracks.take(sighting({0: place}), t)
+            state = tracks.world().robots[0]
+            assert k == 0 or not events
+            assert state.seen
+            assert np.hypot(state.x_m - place[0], state.y_m - place[1]) < 5e-3
+            assert abs(float(wrap_angle_rad(state.heading_rad - place[2]))) < 0.02
+
+
+def test_refuses_a_push_backwards_in_time() -> None:
+    with pytest.raises(InputError, match="pushed_mps"):
+        TrackRules(pushed_mps=-1.0)

@@ -3,6 +3,9 @@
 move (to the image's time) -> choose (one sighting for each robot) -> gate (does it fit?) -> update,
 begin, or claim (several that agree but do not fit: the robot was carried).
 
+What does not fit, but is no farther away than a push or a slip would bring a robot in that time,
+begins its track anew at once.
+
 The time between images is the true one, whatever it is. A robot that is not seen is carried on by
 its motion, with a covariance that grows, until `forget_s`.
 """
@@ -15,10 +18,12 @@ from tagmetry.arena.sighting import Roster, Sightings
 from tagmetry.arena.tracks.claims import Claims
 from tagmetry.arena.tracks.event import EventKind, TrackEvent
 from tagmetry.arena.tracks.motion import Motion
-from tagmetry.arena.tracks.table import TrackTable
+from tagmetry.arena.tracks.table import TrackTable, innovations
 from tagmetry.arena.world_state import RobotState, WorldState
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import BoolArray, IntArray
+
+_LONGEST_PUSH_S = 0.1
 
 
 @dataclass(frozen=True)
@@ -30,15 +35,21 @@ class TrackRules:
             track; 25 is one right one in 65,000 passed over.
         images_to_believe: How many sightings that do not fit, but agree, it takes to be believed.
         forget_s: For how long a robot that is not seen is carried on.
+        pushed_mps: How fast a robot may be pushed or slip in any direction.
+        pushed_radps: How fast it may be turned so.
     """
 
     gate: float = 25.0
     images_to_believe: int = 3
     forget_s: float = 2.0
+    pushed_mps: float = 2.0
+    pushed_radps: float = 12.0
 
     def __post_init__(self) -> None:
         if not (self.gate > 0 and self.images_to_believe >= 1 and 0 < self.forget_s < np.inf):
             raise InputError(f"gate, images_to_believe and forget_s must be positive, got {self}")
+        if not (self.pushed_mps >= 0 and self.pushed_radps >= 0):
+            raise InputError(f"pushed_mps and pushed_radps must not be negative, got {self}")
 
 
 @dataclass
@@ -83,7 +94,10 @@ class Tracks:
         self._begin(seen.at(is_new), time_s)
         events += self._events("found", seen.rows[is_new], time_s)
         self._update(seen.at(fits & ~is_new), time_s)
-        return tuple(events + self._claim(seen.at(~fits & ~is_new), time_s))
+        odd = seen.at(~fits & ~is_new)
+        is_near = self._is_within_a_push(odd, time_s)
+        self._begin(odd.at(is_near), time_s)
+        return tuple(events + self._claim(odd.at(~is_near), time_s))
 
     def world(self, time_s: float | None = None) -> WorldState:
         """Return the state of all robots that have a track.
@@ -136,6 +150,13 @@ class Tracks:
         _, firsts = np.unique(seen.rows[order], return_index=True)
         best = order[firsts]
         return seen.at(best), np.asarray(distances2[best] <= self.rules.gate)
+
+    def _is_within_a_push(self, seen: Sightings, time_s: float) -> BoolArray:
+        """Say of sightings whether they are as near to their tracks as a push would bring them."""
+        off = innovations(self._table.means[seen.rows], seen.places)
+        since_s = np.minimum(time_s - self._table.seen_s[seen.rows], _LONGEST_PUSH_S)
+        is_near = np.hypot(off[:, 0], off[:, 1]) <= self.rules.pushed_mps * since_s
+        return np.asarray(is_near & (np.abs(off[:, 2]) <= self.rules.pushed_radps * since_s))
 
     def _begin(self, seen: Sightings, time_s: float) -> None:
         if len(seen):

@@ -30,7 +30,7 @@ def conclude(rows: Sequence[FloorError]) -> Conclusions:
         checks=(*_checks(parts["tagmetry"]), _found(parts["tagmetry"])),
         tables=(_table(parts),),
         figures=tuple(_figure(method, part) for method, part in parts.items() if part),
-        remarks=tuple(seed001().remarks[2:3]),
+        remarks=(seed001().remarks[2], seed001().remarks[4]),
     )
 
 
