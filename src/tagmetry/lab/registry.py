@@ -12,6 +12,7 @@ _HOMES = {
     "seed001-map": "seed001_map",
     "seed001-slider": "seed001_slider",
     "seed001-rate": "seed001_rate",
+    "seed001-following": "seed001_following",
     "seed002-yaw": "seed002_yaw",
     "seed002-tilt": "seed002_tilt",
     "seed002-zones": "seed002_zones",

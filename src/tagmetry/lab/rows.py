@@ -245,3 +245,40 @@ class Rate:
     found: float
     cpu_ms: float
     cpu_p90_ms: float
+
+
+@dataclass(frozen=True)
+class FollowingMoment:
+    """Leader and follower when an image was measured (seed 001, figures 13 and 14).
+
+    Attributes:
+        delay_s: From the middle of an exposure until a command acts.
+        slippery: One of the leader's wheels slips once.
+        repeat: Which of the drives.
+        time_s: Since the simulation began.
+        leader_x_m: Where the leader truly is.
+        leader_y_m: The same.
+        follower_x_m: Where the follower truly is.
+        follower_y_m: The same.
+        gap_m: From centre to centre, truly.
+        seen_gap_m: The same, as the camera tells.
+        seen_heading_rad: Of the leader, as the camera tells.
+        odometry_heading_rad: Of the leader, as its wheels tell.
+        true_heading_rad: Of the leader, when the image was taken.
+        touching: Whether the two touch.
+    """
+
+    delay_s: float
+    slippery: bool
+    repeat: int
+    time_s: float
+    leader_x_m: float
+    leader_y_m: float
+    follower_x_m: float
+    follower_y_m: float
+    gap_m: float
+    seen_gap_m: float
+    seen_heading_rad: float
+    odometry_heading_rad: float
+    true_heading_rad: float
+    touching: bool

@@ -51,6 +51,16 @@ class PrintedRate(FileModel):
     words: str
 
 
+class PrintedFollowing(FileModel):
+    """Figures 13 and 14: a robot that follows another."""
+
+    gap_m: float
+    worst_m: float
+    mean_m: float
+    slip_s: float
+    remarks: list[str]
+
+
 class PrintedUncertainty(FileModel):
     """What the text concludes."""
 
@@ -68,6 +78,7 @@ class Seed001(FileModel):
         error_map: Figure 9.
         slider: Figures 11 and 12.
         rates: Figure 10.
+        following: Figures 13 and 14.
         uncertainty: Of x, y and the orientation.
         remarks: Where it slips, and how it is taken here.
     """
@@ -77,6 +88,7 @@ class Seed001(FileModel):
     error_map: PrintedMap
     slider: PrintedSlider
     rates: list[PrintedRate]
+    following: PrintedFollowing
     uncertainty: PrintedUncertainty
     remarks: list[str]
 
