@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from tagmetry.camera import ControlledSource, Controls, Image, Source
-from tagmetry.sources.closing import ClosingSource
+from tagmetry.sources.closing import Closing
 from tagmetry.sources.controls.open import open_controls
 from tagmetry.sources.controls.v4l2_controls import V4l2Controls
 
@@ -22,7 +22,7 @@ def controlled(source: Source) -> ControlledSource:
     return _Controlled(source, open_controls(source))
 
 
-class _Controlled(ClosingSource):
+class _Controlled(Closing):
     def __init__(self, source: Source, controls: Controls) -> None:
         self._source, self._controls = source, controls
 

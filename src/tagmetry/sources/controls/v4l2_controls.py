@@ -6,12 +6,12 @@ many webcams; otherwise, and for focus and gain, units are the device's own.
 
 import os
 from collections.abc import Mapping
-from types import TracebackType
 from typing import Self
 
 from tagmetry.camera import Control, ControlRefusedError
 from tagmetry.camera.controls import RULED_BY, control_named
 from tagmetry.errors import InputError
+from tagmetry.sources.closing import Closing
 from tagmetry.sources.controls import v4l2
 from tagmetry.sources.controls.v4l2 import Ioctl, Queried
 
@@ -27,7 +27,7 @@ _IDS: Mapping[str, int] = {
 }
 
 
-class V4l2Controls:
+class V4l2Controls(Closing):
     """What can be set on a video device; `tagmetry.camera.Controls`.
 
     It may be open while another part of the program, or another program, takes the images.
@@ -106,17 +106,6 @@ class V4l2Controls:
         if self._file >= 0:
             os.close(self._file)
             self._file = -1
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def _raw(self, name: str, value: float) -> int:
         """Return a value in the driver's own numbers."""
