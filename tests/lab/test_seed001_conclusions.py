@@ -102,7 +102,7 @@ def test_a_marker_that_was_not_found_is_told() -> None:
 def slid(error_m: float, error_rad: float) -> list[SliderPlace]:
     return [
         SliderPlace(method, 0, 0.1 * n, 0.02 * n, 0.1 * n, error_m, error_rad, 1e-4, 1e-3)
-        for method in ("tagmetry", "tagmetry, followed", "paper")
+        for method in ("tagmetry", "paper")
         for n in range(10)
     ]
 

@@ -24,7 +24,7 @@ def conclude(rows: Sequence[Rate]) -> Conclusions:
         checks=tuple(_checks(rows)),
         tables=(_table(rows),),
         figures=(_figure(rows),),
-        remarks=tuple(seed001().remarks[5:6]),
+        remarks=tuple(seed001().remarks[6:7]),
     )
 
 

@@ -10,7 +10,7 @@ from tagmetry.lab.beside.sample import rounded
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed001 import seed001
 from tagmetry.lab.rows import SliderPlace
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, RED, blank
+from tagmetry.record.calibration_report.drawing import BLUE, RED, blank
 from tagmetry.record.calibration_report.figures import ReportFigure
 from tagmetry.record.calibration_report.tables import ReportTable
 
@@ -18,12 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 POSITION_M, ANGLE_RAD = 0.001, 0.005  # what must hold
-_NAMES = {
-    "tagmetry": "ours, one image",
-    "tagmetry, followed": "ours, followed",
-    "paper": "its steps",
-}
-_COLORS = {"tagmetry": BLUE, "tagmetry, followed": GOLD, "paper": RED}
+_NAMES = {"tagmetry": "ours", "paper": "its steps"}
+_COLORS = {"tagmetry": BLUE, "paper": RED}
 
 
 def conclude(rows: Sequence[SliderPlace]) -> Conclusions:
