@@ -123,6 +123,7 @@ def test_noise_stops_nobody() -> None:
                 stranger.sendto(b"\x4d" * size, host.address)
         robot.send(Odometry(robot.host_us, 1.0, 2.0, 3.0))
         step_until(robot, host.take)
+        assert host.refused()[Refusal.FORM] > 100
 
 
 def test_listens_to_this_computer_alone_unless_told_otherwise() -> None:

@@ -19,6 +19,7 @@ from tagmetry.link.emergency import Emergency
 from tagmetry.link.hearing import Hearing
 from tagmetry.link.layout import Kind
 from tagmetry.link.messages import KINDS, Beat, Command, Hello, Message, Time
+from tagmetry.link.packet import Refusal
 from tagmetry.link.peer import Address, Peer, RobotLink
 from tagmetry.link.sockets import LOOPBACK, open_socket
 from tagmetry.link.traffic import Packet, Received
@@ -148,6 +149,11 @@ class Host:
         with self._lock:
             now = now_us()
             return tuple(self._hearing.peers[key].link(now) for key in sorted(self._hearing.peers))
+
+    def refused(self) -> dict[Refusal, int]:
+        """Return how many packets were refused that named no robot of this host, and why."""
+        with self._lock:
+            return dict(self._hearing.refused)
 
     def _run(self) -> None:
         """Hear and beat until the end."""

@@ -108,7 +108,7 @@ BODIES: dict[Kind, Body] = {
             Kind.BEAT,
             "host",
             Layout("beat", ()),
-            "The host and its program are alive; sent when nothing else was for 50 ms.",
+            "The host and its program are alive; it is never silent for more than 50 ms.",
         ),
         Body(
             Kind.ESTOP,
@@ -120,7 +120,7 @@ BODIES: dict[Kind, Body] = {
                     Field("order", "uint32_t", "1: stop and stay stopped; 2: release"),
                 ),
             ),
-            "Emergency stop, repeated every 50 ms while it holds; the release 20 times.",
+            "Emergency stop, repeated every 25 ms while it holds; the release 20 times.",
         ),
         Body(
             Kind.POSE,

@@ -290,6 +290,15 @@ def test_a_slow_disk_delays_nobody_and_drops_the_oldest(
     recorder._is_closing.set()
 
 
+def test_of_files_nothing_is_dropped(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    with Recorder(path, may_drop=False) as recorder:
+        for n in range(200):
+            recorder.image(replace(IMAGE, sequence=n))
+    assert recorder.dropped_count == 0
+    assert [image.sequence for image in Replay(path)] == list(range(200))
+
+
 class FullDisk:
     """A file on a disk that is full after so many bytes."""
 
