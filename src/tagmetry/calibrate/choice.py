@@ -28,8 +28,9 @@ class ModelRow:
     Attributes:
         name: The model.
         parameters: How many numbers of the camera were free.
-        rms_px: Error on the corners it was fitted to; falls with every parameter that is added.
-        hold_out_px: Error on views that were left out (their own pose fitted); infinite where the
+        rms_px: Error on the corners it was fitted to, weighted by what they tell; falls with every
+            parameter that is added.
+        hold_out_px: The same on left-out views (their own pose fitted); infinite where the
             model cannot be solved without them.
         bic: Bayesian information criterion; only differences mean something, lower is better.
         monotonic_share: Share of the image, 0 to 1, on which the distortion is one to one.

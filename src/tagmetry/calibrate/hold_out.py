@@ -1,10 +1,14 @@
-"""How well a camera shows views that it was not solved from."""
+"""How well a camera shows views that it was not solved from.
+
+Errors count by what their corners tell, as they do in the fit: a mean over all corners alike is
+that of the worst of them, and says little of the camera.
+"""
 
 from dataclasses import replace
 
 import numpy as np
 
-from tagmetry.calibrate.bundle import Bundle, Freedom, errors_px
+from tagmetry.calibrate.bundle import Bundle, Freedom, errors_in_sd
 from tagmetry.calibrate.fit import Fit
 from tagmetry.calibrate.solve import solve
 from tagmetry.geometry import Array
@@ -16,7 +20,7 @@ _MOST_STEPS = 6  # from the solution of all views; more only go along valleys
 
 
 def hold_out_px(fit: Fit, most_rounds: int = _MOST_ROUNDS, enough: int = _ALL) -> float:
-    """Return the root of the mean squared 2-D error over left-out views, weighted by corners.
+    """Return the root of the mean squared 2-D error over left-out views, weighted.
 
     Each view is left out once, alone or, with more views than rounds, in interleaved groups, until
     enough have been. The camera (and the board's shape) is solved from the others; then only the
@@ -37,10 +41,10 @@ def left_out_groups(views: int, most_rounds: int, enough: int) -> list[IntArray]
 
 
 def pooled_px(squares_px2: Array, fit: Fit) -> float:
-    """Return the root of the mean over corners of views' squares (n,), NaN where not asked."""
+    """Return the root of the weighted mean of views' squares (n,), NaN where not asked."""
     asked = ~np.isnan(squares_px2)
-    corners = fit.seen.used.sum(axis=1)[asked]
-    return float(np.sqrt((squares_px2[asked] * corners).sum() / corners.sum()))
+    weights = fit.seen.weights.sum(axis=1)[asked]
+    return float(np.sqrt((squares_px2[asked] * weights).sum() / weights.sum()))
 
 
 def _squares_without(fit: Fit, group: IntArray) -> Array:
@@ -65,5 +69,5 @@ def squares_by_own_pose_px2(solved: Bundle, fit: Fit, group: IntArray) -> Array:
     left_out, seen = fit.bundle.only(group), fit.seen.only(group)
     start = replace(left_out, intrinsics=solved.intrinsics, p_board=solved.p_board)
     posed = solve(start, seen, Freedom(fit.freedom.basis[:, :0]), _MOST_STEPS).bundle
-    squares = (errors_px(posed, seen) ** 2).sum(axis=(1, 2)) / seen.used.sum(axis=1)
+    squares = (errors_in_sd(posed, seen) ** 2).sum(axis=(1, 2)) / seen.weights.sum(axis=1)
     return np.asarray(np.nan_to_num(squares, nan=np.inf))

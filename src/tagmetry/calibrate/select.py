@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tagmetry.calibrate.bundle import Bundle, errors_in_sd, errors_px
+from tagmetry.calibrate.bundle import Bundle, errors_in_sd
 from tagmetry.calibrate.choice import LENS_NAMES, LensName, ModelChoice, ModelRow
 from tagmetry.calibrate.covariance import covariances
 from tagmetry.calibrate.fit import Fit, fit_flat, refit
@@ -157,8 +157,8 @@ def _hold_out_px(fit: Fit) -> float:
 
 
 def _rms_px(fit: Fit) -> float:
-    squares = (errors_px(fit.bundle, fit.seen) ** 2).sum()
-    return float(np.sqrt(squares / fit.seen.corner_count))
+    squares = (errors_in_sd(fit.bundle, fit.seen) ** 2).sum()
+    return float(np.sqrt(squares / fit.seen.weights.sum()))
 
 
 def bayesian_information(fit: Fit) -> float:
