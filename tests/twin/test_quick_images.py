@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plain_camera import EMPTY, FACING, PLAIN, camera, square, white_square
+from plain_camera import EMPTY, FACING, PLAIN, camera, square, step_edges_px, white_square
 
 from tagmetry.detect import Detector
 from tagmetry.geometry import RigidTransform
@@ -22,6 +22,7 @@ from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.rendering.box import Box
 from tagmetry.twin.scenes import Along, Scene, Steady, Still
 
+AT_ORIGIN = Still(RigidTransform.identity())
 NOISY = replace(
     PLAIN,
     pixels=Sensor(bits=12, full_well_e=3000.0, read_noise_e=12.0),
@@ -54,8 +55,7 @@ def test_without_noise_they_are_the_same(zoom: float, focus: float) -> None:
 def test_a_window_is_what_the_whole_image_shows_there(zoom: float) -> None:
     """Right through an edge, where softened pixels have neighbours outside."""
     device = replace(PLAIN, blur_px=1.5, vignetting=webcam().vignetting)
-    path = Still(RigidTransform.identity())
-    taking = Taking(device, Setting(zoom, focus=2.0), white_square(0.5, 0.02), path, 0.0)
+    taking = Taking(device, Setting(zoom, focus=2.0), white_square(0.5, 0.02), AT_ORIGIN, 0.0)
     rng = np.random.default_rng(0)
     window = Box(137, 74, 177, 113)
     whole, part = image_pixels(taking, rng), image_pixels(taking, rng, window)
@@ -91,6 +91,40 @@ def test_what_moves_fast_is_not_cut_off() -> None:
     device = replace(PLAIN, line_s=2e-5, blur_px=0.5)
     whole, quick = both(scene, device, focus=3.0)
     np.testing.assert_allclose(quick / 65535, whole / 65535, atol=3e-4)
+
+
+@pytest.mark.parametrize("zoom", [100, 200])
+def test_motion_is_the_mean_of_its_moments(zoom: float) -> None:
+    """Nine pixels of the sensor, against a hundred still images along the way."""
+    device = replace(PLAIN, blur_px=0.5)
+    speed_m_s = 9 / 2000 * 0.5 / 5e-3
+
+    def light(path) -> np.ndarray:
+        scene = Scene((replace(square(0.5, 0.006), path=path),), background=0.1)
+        taking = Taking(device, Setting(zoom, 2.0, 5e-3), scene, AT_ORIGIN, 0.0)
+        return image_pixels(taking, np.random.default_rng(0)) / 65535
+
+    at = np.linspace(-0.5, 0.5, 101)[:-1] * 5e-3 + 0.25e-4
+    here = RigidTransform.from_components([0.0, 0.0, 0.5], FACING)
+    moving = Steady(here, np.array([speed_m_s, 0.0, 0.0]), np.zeros(3))
+    expected = np.mean([light(Still(moving.at(np.array([t]))[0])) for t in at], axis=0)
+    found = light(moving)
+    assert np.ptp(found) > 0.2
+    np.testing.assert_allclose(found, expected, rtol=0, atol=0.01 * np.ptp(expected))
+    assert step_edges_px(found) == pytest.approx(step_edges_px(expected), abs=2e-3)
+
+
+def test_a_function_of_time_is_followed_between_thousandths_of_a_second() -> None:
+    def swing(time_s: float) -> RigidTransform:
+        return facing_camera(0.3 + 0.05 * np.sin(9 * time_s), 40 * np.sin(5 * time_s))
+
+    times_s = np.random.default_rng(0).uniform(-0.1, 2.0, 50)
+    found = Along(swing).at(times_s)
+    for pose, time_s in zip(found, times_s, strict=True):
+        off = pose.inv() * swing(time_s)
+        assert np.linalg.norm(off.translation) < 0.05 * 81 * 1e-6 / 8 * 1.01
+        assert off.rotation.magnitude() < np.radians(40) * 25 * 1e-6 / 8 * 1.01
+    assert Along(swing).moves
 
 
 def micro(depth_m: float, turn_deg: float, **others: object) -> TwinCamera:

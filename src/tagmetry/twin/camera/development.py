@@ -100,7 +100,11 @@ def _shot(taking: Taking, part: Part, times: int) -> Shot:
         camera,
         taking.path,
         taking.time_s + part.rows_later * line_s,
-        Optics(lens=read.lens_of(times), focus_m=taking.focus_m),
+        Optics(
+            lens=read.lens_of(times),
+            focus_m=taking.focus_m,
+            later_px=taking.device.blur_px / (read.binned * times),
+        ),
         Shutter(taking.setting.exposure_s, line_s * times),
     )
 

@@ -24,6 +24,8 @@ class Optics:
         focus_m: Depth at which the lens is sharp.
         vignetting: How the image darkens toward its corners.
         veil: Share of the image's mean light that is scattered evenly over it.
+        later_px: Standard deviation of what the light will be blurred by when it is done: motion
+            need not be followed in finer steps than that hides.
     """
 
     blur_px: float = 0.0
@@ -31,6 +33,7 @@ class Optics:
     focus_m: float = np.inf
     vignetting: Vignetting = field(default_factory=Vignetting)
     veil: float = 0.0
+    later_px: float = 0.0
 
     def __post_init__(self) -> None:
         if not 0 <= self.veil < 1:

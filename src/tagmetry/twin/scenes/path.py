@@ -5,7 +5,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -16,6 +16,7 @@ from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 
+_TICK_S = 1e-3
 _Z_UP = np.array([0.0, 0.0, 1.0])
 
 
@@ -133,7 +134,7 @@ class Waypoints:
 
 @dataclass(frozen=True, eq=False)
 class Along:
-    """It goes where a function of time says.
+    """It goes where a function of time says, straight from one thousandth of a second to the next.
 
     Attributes:
         T_world_thing_at: From seconds to a pose.
@@ -148,7 +149,15 @@ class Along:
 
     def at(self, times_s: Array) -> RigidTransform:
         """Return the poses at n times."""
-        return RigidTransform.concatenate([self.T_world_thing_at(float(t)) for t in times_s])
+        ticks = np.unique(np.floor(np.asarray(times_s) / _TICK_S)).astype(int)
+        ticks = np.union1d(ticks, ticks + 1)
+        poses = RigidTransform.concatenate([self._pose_at(int(tick)) for tick in ticks])
+        return Waypoints(ticks * _TICK_S, poses, smooth=False).at(times_s)
+
+    @cached_property
+    def _pose_at(self) -> Callable[[int], RigidTransform]:
+        """Return the pose at a tick; kept, as every row of an image asks for its neighbours'."""
+        return lru_cache(maxsize=1024)(lambda tick: self.T_world_thing_at(tick * _TICK_S))
 
 
 def looking(from_m: Array, to_m: Array, up: Array = _Z_UP) -> RigidTransform:
