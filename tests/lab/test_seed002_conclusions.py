@@ -129,6 +129,20 @@ def test_one_large_distance_or_one_lost_picture_fails_its_statement() -> None:
     assert "1 of 8 not localized" in check(conclusions, "one: remains").measured
 
 
+def test_half_of_the_weighted_average_is_asked_of_the_whole_grid() -> None:
+    joint = [r for r in sweep() if r.method == "joint"]
+    others = ("weighted", "paper, 1 / distance")
+    theirs = [replace(r, method=name, radial_m=3 * r.radial_m) for r in joint for name in others]
+    conclusions = conclude_yaw([*joint, *theirs])
+    halves = [one for one in conclusions.checks if "rms radial error over all" in one.told]
+    assert [(one.holds, one.measured) for one in halves] == [(True, "0.333")] * 2
+    worse = [replace(r, radial_m=4 * r.radial_m) if r.layout == "two" else r for r in joint]
+    again = conclude_yaw([*worse, *theirs])
+    assert check(again, "2 or more markers").holds is False
+    table = next(one for one in again.tables if one.name == "seed002_halves")
+    assert [row[-1] for row in table.rows] == [0.333, 1.33, 0.333, 0.333, 0.333]
+
+
 def test_a_difference_within_the_noise_is_no_trend() -> None:
     rows = [replace(r, radial_m=0.01 + 1e-5 * r.repeat) for r in sweep()]
     trends = [one for one in conclude_yaw(rows).checks if one.told.startswith("trend")]

@@ -17,6 +17,7 @@ _HOMES = {
     "seed002-tilt": "seed002_tilt",
     "seed002-zones": "seed002_zones",
     "seed002-perpendicular": "seed002_perpendicular",
+    "seed002-way": "seed002_way",
     "seed003-calibration": "seed003_calibration",
     "seed003-pose": "seed003_pose",
     "seed004-distance": "seed004_distance",

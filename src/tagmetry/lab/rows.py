@@ -282,3 +282,33 @@ class FollowingMoment:
     odometry_heading_rad: float
     true_heading_rad: float
     touching: bool
+
+
+@dataclass(frozen=True)
+class Followed:
+    """How far a moving camera's pose is off in one image (seed 002's markers).
+
+    Attributes:
+        method: Whose; `filter` joins the images over time.
+        layout: Which markers there are.
+        distance_m: From the camera to the markers where it began.
+        repeat: Which way.
+        image: Number of the image on the way.
+        gap_s: Time since the image before.
+        radial_m: Distance from the true place; NaN where no pose was found.
+        turn_rad: Angle of the rotation between the estimate and the truth.
+        mahalanobis2: Squared Mahalanobis distance of the error; NaN where none is stated.
+        surprise2: Squared innovation by its covariance, 6 on average; NaN but for the filter, and
+            for an image that it did not heed.
+    """
+
+    method: str
+    layout: str
+    distance_m: float
+    repeat: int
+    image: int
+    gap_s: float
+    radial_m: float
+    turn_rad: float
+    mahalanobis2: float
+    surprise2: float

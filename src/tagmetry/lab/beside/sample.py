@@ -9,9 +9,9 @@ import numpy as np
 from scipy.stats import t as student
 
 from tagmetry.geometry import Array
-from tagmetry.lab.rows import Localization, RobotPlace
+from tagmetry.lab.rows import Followed, Localization, RobotPlace
 
-Located = Localization | RobotPlace
+Located = Localization | RobotPlace | Followed
 _OURS = ("planar", "joint", "covariance")
 
 
@@ -94,6 +94,11 @@ class Sample:
             tuple(row for row in self.rows if all(getattr(row, k) == v for k, v in wanted))
         )
 
+    def without(self, **settings: Any) -> "Sample":  # noqa: ANN401 (what a field may be)
+        """Return the other rows."""
+        left_out = set(map(id, self.where(**settings).rows))
+        return Sample(tuple(row for row in self.rows if id(row) not in left_out))
+
     def by(self, field: str) -> "dict[float, Sample]":
         """Return the rows by the values of a field, in rising order."""
         parts: dict[float, list[Located]] = {}
@@ -118,7 +123,11 @@ class Sample:
     @cached_property
     def methods(self) -> tuple[str, ...]:
         """The methods that were measured."""
-        return tuple(dict.fromkeys(row.method for row in self.rows))
+        return self.kinds("method")
+
+    def kinds(self, field: str) -> tuple[str, ...]:
+        """Return the values of a field as they come, each once."""
+        return tuple(dict.fromkeys(getattr(row, field) for row in self.rows))
 
     @property
     def ours(self) -> "Sample":

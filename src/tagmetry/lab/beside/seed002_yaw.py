@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from tagmetry.lab.beside.sample import sample
 from tagmetry.lab.beside.seed002_yaw_checks import every_check
 from tagmetry.lab.beside.seed002_yaw_figures import every_figure
+from tagmetry.lab.beside.seed002_yaw_halves import half_checks, halves
 from tagmetry.lab.beside.seed002_yaw_tables import by_distance, by_method, consistency
 from tagmetry.lab.conclusions import Conclusions
 from tagmetry.lab.published.seed002 import seed002
@@ -28,8 +29,8 @@ def conclude(rows: Sequence[Localization]) -> Conclusions:
     everything = sample(rows)
     exact = everything.where(look="simulator")
     return Conclusions(
-        checks=tuple(every_check(exact)),
-        tables=(by_distance(exact), by_method(exact), consistency(everything)),
+        checks=(*every_check(exact), *half_checks(exact)),
+        tables=(by_distance(exact), by_method(exact), halves(exact), consistency(everything)),
         figures=tuple(every_figure(everything, exact)),
         remarks=(_SETUP, _COVARIANCE, *seed002().remarks[:3], seed002().remarks[4]),
     )

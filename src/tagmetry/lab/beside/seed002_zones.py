@@ -101,8 +101,7 @@ def _mistakes(everything: Sample) -> ReportTable:
         "published", 10 * float(np.mean(zones.radial_cm)), float(np.mean(zones.xy_mm)),
         10 * float(np.mean(zones.z_cm)), 10 * float(np.ptp(zones.z_cm)),
     )  # fmt: skip
-    shown = [row for row in everything.rows if isinstance(row, Localization)]
-    names = tuple(dict.fromkeys(row.assumed for row in shown))
+    names = everything.kinds("assumed")
     rows = tuple(_mistake(everything.ours.where(assumed=name), name) for name in names)
     header = ("what is wrong", "radial mm", "XY mm", "Z mm", "range of Z over the zones mm")
     return ReportTable(
