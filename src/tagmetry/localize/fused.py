@@ -5,29 +5,27 @@ on the group. Of each marker the hypothesis is taken that agrees with the others
 all markers to agree on it; one that agrees in neither is left out. The covariances are those that
 the markers' poses have at the common pose: a marker's own is smaller where noise makes it lean.
 What is lost against the joint solution:
-a marker's two poses with their covariances are less than its corners, so far markers make the
-stated covariance too small; and markers of one body are taken to err independently.
+a marker's two poses with their covariances are less than its corners. Far markers' poses disagree
+by more than their covariances say; the common one's covariance then grows by as much. Markers of
+one body are taken to err independently.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import chdtri
 
 from tagmetry.camera import Camera
-from tagmetry.geometry import Array, RigidTransform, perturb_pose, pose_difference
-from tagmetry.geometry.arrays import BoolArray, IntArray
+from tagmetry.geometry import Array, RigidTransform
 from tagmetry.localize.chain import MarkerView, marker_views
 from tagmetry.localize.joint.equations import informations
+from tagmetry.localize.joint.fusion import GATE, Agreement, Opinions, agreement
 from tagmetry.localize.joint.scene import Scene, scene_of
 from tagmetry.localize.knowledge import Knowledge
-from tagmetry.localize.result import CameraHypothesis, Rejection
+from tagmetry.localize.result import CameraHypothesis, Rejection, excess
 from tagmetry.localize.seen import SeenMarker
+from tagmetry.markers.bodies import MarkerKey
 
-GATE = float(chdtri(6, 1e-4))  # one good marker in ten thousand is turned away
-_MEDIAN = 5.35  # median of chi2 with 6 degrees of freedom
-_ROUNDS = 5
 _DISTINCT = 3.0  # standard deviations between two solutions that are not one
 _IMPROBABLE = 1e-6
 _MOST = 4  # markers to start from, and rough solutions that are worth a second look
@@ -51,122 +49,91 @@ class FusedByCovariance:
         views = marker_views(seen, camera)
         if not views:
             return ()
-        opinions = _Opinions.of(views, camera)
-        surest = sorted(views, key=lambda view: view.expected_error2_m2)[:_MOST]
-        starts = [one.T_world_camera for view in surest for one in view.hypotheses]
-        rough = _distinct([_fused(opinions, start) for start in starts])[:_MOST]
-        return _distinct([_fused(opinions.at(T), T) for T in (one.T_world_camera for one in rough)])
+        opinions = _opinions(views)
+        rough = _distinct([agreement(opinions, *start) for start in _starts(views, opinions)])
+        scene = scene_of([view.seen for view in views], camera, Knowledge())[0]
+        exact = [agreement(_at(opinions, scene, one), one.R, one.t) for one in rough[:_MOST]]
+        return _hypotheses(_distinct(exact), [view.marker.key for view in views])
 
 
-@dataclass(frozen=True, eq=False)
-class _Opinions:
-    """All hypotheses of all markers in a row.
-
-    Attributes:
-        views: The n markers.
-        owner: Which of them each hypothesis belongs to, shape (k,).
-        poses: T_world_camera of the k hypotheses.
-        informations: Of the hypotheses, shape (k, 6, 6).
-        surprises: -2 log of their probabilities, shape (k,).
-        scene: The corners that they come from.
-    """
-
-    views: Sequence[MarkerView]
-    owner: IntArray
-    poses: RigidTransform
-    informations: Array
-    surprises: Array
-    scene: Scene
-
-    @classmethod
-    def of(cls, views: Sequence[MarkerView], camera: Camera) -> "_Opinions":
-        pairs = [(n, one) for n, view in enumerate(views) for one in view.hypotheses]
-        probability = np.array([one.probability for _, one in pairs])
-        return cls(
-            views,
-            np.array([n for n, _ in pairs]),
-            RigidTransform.concatenate([one.T_world_camera for _, one in pairs]),
-            np.linalg.inv(np.stack([one.covariance for _, one in pairs])),
-            -2 * np.log(np.maximum(probability, 1e-300)),
-            scene_of([view.seen for view in views], camera, Knowledge())[0],
-        )
-
-    def at(self, T_world_camera: RigidTransform) -> "_Opinions":
-        """Return the same with the informations that they would have at a common pose."""
-        T = T_world_camera.as_matrix()
-        common, in_front = informations(self.scene, T[:3, :3].copy(), T[:3, 3].copy())
-        usable = in_front & (np.linalg.eigvalsh(common)[:, 0] > 0)
-        kept = np.where(usable[self.owner, None, None], common[self.owner], self.informations)
-        return replace(self, informations=kept)
+def _opinions(views: Sequence[MarkerView]) -> Opinions:
+    pairs = [(n, one) for n, view in enumerate(views) for one in view.hypotheses]
+    T = np.stack([one.T_world_camera.as_matrix() for _, one in pairs])
+    probabilities = np.array([one.probability for _, one in pairs])
+    return Opinions(
+        np.ascontiguousarray(T[:, :3, :3]),
+        np.ascontiguousarray(T[:, :3, 3]),
+        np.linalg.inv(np.stack([one.covariance for _, one in pairs])),
+        -2 * np.log(np.maximum(probabilities, 1e-300)),
+        np.array([n for n, _ in pairs]),
+        np.array([len(views)]),
+    )
 
 
-@dataclass(frozen=True, eq=False)
-class _Choice:
-    """The hypothesis of each marker that lies nearest to a pose.
-
-    Attributes:
-        changes: From the pose to the hypotheses, shape (n, 6).
-        informations: Of the hypotheses, shape (n, 6, 6).
-        costs: Their squared distances and surprises, shape (n,).
-    """
-
-    changes: Array
-    informations: Array
-    costs: Array
-
-    @property
-    def agrees(self) -> BoolArray:
-        """Which markers agree, (n,): far ones' poses err more than their covariances say."""
-        excess = max(1.0, float(np.median(self.costs)) / _MEDIAN)
-        return np.asarray(self.costs <= GATE * excess)
+def _starts(views: Sequence[MarkerView], opinions: Opinions) -> list[tuple[Array, Array]]:
+    """Return the poses R, t that the surest markers have."""
+    surest = np.argsort([view.expected_error2_m2 for view in views])[:_MOST]
+    return [
+        (opinions.Rs[k], opinions.ts[k]) for k in np.flatnonzero(np.isin(opinions.owner, surest))
+    ]
 
 
-def _fused(opinions: _Opinions, start: RigidTransform) -> CameraHypothesis:
-    """Return what the markers near a starting pose agree on; `chi2` also counts those left out."""
-    T, covariance = start, np.zeros((6, 6))
-    for _ in range(_ROUNDS):
-        T, covariance = _mean(_chosen(opinions, T), T)
-    choice = _chosen(opinions, T)
-    keys = [view.marker.key for view in opinions.views]
-    used = tuple(key for key, agrees in zip(keys, choice.agrees, strict=True) if agrees)
-    left_out = tuple(Rejection(key, _WHY) for key in keys if key not in used)
-    cost = float(np.minimum(choice.costs, GATE).sum())
-    return CameraHypothesis(T, covariance, 1.0, used, left_out, cost, max(0, 6 * (len(used) - 1)))
+def _at(opinions: Opinions, scene: Scene, one: Agreement) -> Opinions:
+    """Return the same with the informations that they would have at a common pose."""
+    common, in_front = informations(scene, one.R, one.t)
+    usable = in_front & (np.linalg.eigvalsh(common)[:, 0] > 0)
+    owner = opinions.owner
+    kept = np.where(usable[owner, None, None], common[owner], opinions.informations)
+    return opinions._replace(informations=kept)
 
 
-def _chosen(opinions: _Opinions, T: RigidTransform) -> _Choice:
-    changes = pose_difference(opinions.poses, T)
-    informations = opinions.informations
-    costs = np.einsum("ki,kij,kj->k", changes, informations, changes) + opinions.surprises
-    by_owner = [np.flatnonzero(opinions.owner == n) for n in range(len(opinions.views))]
-    nearest = np.array([rows[np.argmin(costs[rows])] for rows in by_owner])
-    return _Choice(changes[nearest], informations[nearest], costs[nearest])
-
-
-def _mean(choice: _Choice, T: RigidTransform) -> tuple[RigidTransform, Array]:
-    """Return the information-weighted mean of the poses that agree; of the nearest if none does."""
-    taken = choice.agrees if choice.agrees.any() else choice.costs == choice.costs.min()
-    informations = choice.informations[taken]
-    covariance = np.linalg.inv(informations.sum(axis=0))
-    pull = np.einsum("nij,nj->i", informations, choice.changes[taken])
-    return perturb_pose(T, covariance @ pull), covariance
-
-
-def _distinct(solutions: Sequence[CameraHypothesis]) -> tuple[CameraHypothesis, ...]:
-    """Return the solutions that differ and are not improbable, the likelier first."""
-    kept: list[CameraHypothesis] = []
-    for one in sorted(solutions, key=lambda one: one.chi2):
+def _distinct(solutions: Sequence[Agreement]) -> list[Agreement]:
+    """Return the solutions that differ, the likelier first."""
+    kept: list[Agreement] = []
+    for one in sorted(solutions, key=_cost):
         if all(_deviations(one, other) > _DISTINCT for other in kept):
             kept.append(one)
-    weights = np.exp([(kept[0].chi2 - one.chi2) / 2 for one in kept]) if kept else np.zeros(0)
+    return kept
+
+
+def _cost(one: Agreement) -> float:
+    """Return the squared distances of all markers, those left out included."""
+    return float(np.minimum(one.costs, GATE).sum())
+
+
+def _deviations(one: Agreement, other: Agreement) -> float:
+    turn = one.R @ other.R.T
+    if np.trace(turn) < 2.9:
+        return float("inf")
+    x, y, z = (turn - turn.T)[[2, 0, 1], [1, 2, 0]] / 2
+    apart = np.array([*(one.t - other.t), x, y, z])
+    return float(np.sqrt(max(apart @ other.information @ apart, 0.0)))
+
+
+def _hypotheses(
+    solutions: Sequence[Agreement], keys: Sequence[MarkerKey]
+) -> tuple[CameraHypothesis, ...]:
+    weights = np.exp([(_cost(solutions[0]) - _cost(one)) / 2 for one in solutions])
     return tuple(
-        replace(one, probability=float(weight / weights.sum()))
-        for one, weight in zip(kept, weights, strict=True)
+        _hypothesis(one, keys, float(weight / weights.sum()))
+        for one, weight in zip(solutions, weights, strict=True)
         if weight > _IMPROBABLE
     )
 
 
-def _deviations(one: CameraHypothesis, other: CameraHypothesis) -> float:
-    apart = pose_difference(one.T_world_camera, other.T_world_camera)
-    distance2 = float(apart @ np.linalg.solve(other.covariance, apart))
-    return float(np.sqrt(max(distance2, 0.0)))
+def _hypothesis(one: Agreement, keys: Sequence[MarkerKey], probability: float) -> CameraHypothesis:
+    used = tuple(key for key, agrees in zip(keys, one.agrees, strict=True) if agrees)
+    left_out = tuple(Rejection(key, _WHY) for key in keys if key not in used)
+    freedom = max(0, 6 * (len(used) - 1))
+    chi2 = float(one.costs[one.agrees].sum())
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = one.R, one.t
+    return CameraHypothesis(
+        RigidTransform.from_matrix(matrix),
+        np.asarray(np.linalg.inv(one.information) * excess(chi2, freedom)),
+        probability,
+        used,
+        left_out,
+        _cost(one),
+        freedom,
+    )

@@ -2,9 +2,13 @@
 
 from dataclasses import dataclass
 
+from scipy.special import chdtri
+
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array, RigidTransform, UncertainTransform
 from tagmetry.markers.bodies import MarkerKey
+
+_CHANCE = 0.01
 
 
 @dataclass(frozen=True)
@@ -102,3 +106,13 @@ class CameraPose:
     def rejected(self) -> tuple[Rejection, ...]:
         """Every marker of the image that did not help the best hypothesis, and why."""
         return (*self.passed_over, *(self.hypotheses[0].rejected if self.hypotheses else ()))
+
+
+def excess(chi2: float, freedom: int) -> float:
+    """Return by what covariances grow: chi2 by its freedom, where noise seldom gives as much.
+
+    Seldom is less than once in a hundred times.
+    """
+    if freedom < 1 or chi2 < chdtri(freedom, _CHANCE):
+        return 1.0
+    return chi2 / freedom

@@ -126,3 +126,26 @@ def turn(rotation_vector: Array, R: Array) -> Array:
     E[1, 0], E[1, 1], E[1, 2] = b * x * y + a * z, 1 - b * (x * x + z * z), b * y * z - a * x
     E[2, 0], E[2, 1], E[2, 2] = b * x * z - a * y, b * y * z + a * x, 1 - b * (x * x + y * y)
     return product(E, R)
+
+
+@kernel
+def rotation_vector(R_to: Array, R_from: Array) -> Array:
+    """Return the rotation vector of R_to R_from^T, shape (3,), by its quaternion."""
+    T = product_with_transposed(R_to, R_from)
+    x, y, z, w = T[2, 1] - T[1, 2], T[0, 2] - T[2, 0], T[1, 0] - T[0, 1], 1.0 + np.trace(T)
+    if w < 1.0:  # more than 90 degrees: from the largest element of the diagonal
+        i = 0
+        for k in range(1, 3):
+            if T[k, k] > T[i, i]:
+                i = k
+        j, k = (i + 1) % 3, (i + 2) % 3
+        q = np.empty(3)
+        q[i] = 1.0 + T[i, i] - T[j, j] - T[k, k]
+        q[j], q[k] = T[i, j] + T[j, i], T[i, k] + T[k, i]
+        w = T[k, j] - T[j, k]
+        x, y, z = q[0], q[1], q[2]
+    if w < 0.0:
+        x, y, z, w = -x, -y, -z, -w
+    length = np.sqrt(x * x + y * y + z * z)
+    scale = 2.0 / w if length < 1e-12 * w else 2.0 * np.arctan2(length, w) / length
+    return np.array([scale * x, scale * y, scale * z])

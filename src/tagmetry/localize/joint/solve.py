@@ -17,7 +17,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import chdtri
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import RigidTransform
@@ -26,13 +25,12 @@ from tagmetry.localize.joint.proposals import proposals
 from tagmetry.localize.joint.scene import scene_of
 from tagmetry.localize.joint.starts import starts
 from tagmetry.localize.knowledge import Knowledge
-from tagmetry.localize.result import CameraHypothesis, Rejection
+from tagmetry.localize.result import CameraHypothesis, Rejection, excess
 from tagmetry.localize.seen import SeenMarker
 from tagmetry.markers.bodies import MarkerKey
 
 _SAME = 0.1  # standard deviations between two solutions that are one
 _IMPROBABLE = 1e-9
-_CHANCE = 0.01
 
 
 @dataclass(frozen=True)
@@ -103,11 +101,10 @@ def _hypothesis(
 ) -> CameraHypothesis:
     freedom = _freedom(one, known)
     chi2 = float(one.system[0, 0])
-    scale2 = 1.0 if _is_chance(chi2, freedom) else chi2 / freedom
     distances = np.sqrt(one.distances2)
     return CameraHypothesis(
         _transform(one),
-        np.asarray(np.linalg.inv(one.system[1:, 1:]) * scale2, dtype=np.float64),
+        np.asarray(np.linalg.inv(one.system[1:, 1:]) * excess(chi2, freedom), dtype=np.float64),
         probability,
         tuple(key for key, agrees in zip(keys, one.agrees, strict=True) if agrees),
         tuple(
@@ -130,8 +127,3 @@ def _freedom(one: Consensus, known: Knowledge) -> int:
     """Return by how many numbers what agrees and what is known exceeds the pose's six."""
     seen = 8 * int(one.agrees.sum()) - 2 * int((one.dropped >= 0).sum())
     return seen + 2 * len(known.ups) + len(known.heights) - 6
-
-
-def _is_chance(chi2: float, freedom: int) -> bool:
-    """Say whether noise alone gives such a chi2 more often than once in a hundred times."""
-    return freedom < 1 or bool(chi2 < chdtri(freedom, _CHANCE))
