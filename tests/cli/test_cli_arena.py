@@ -92,6 +92,7 @@ def test_a_run_prints_a_line_for_each_image(
     said = capsys.readouterr()
     lines = [json.loads(line) for line in said.out.splitlines()]
     assert [line["sequence"] for line in lines] == [0, 1]
+    assert "no floor marker is seen" in said.err
     (robot,) = lines[0]["robots"]
     assert (robot["x_m"], robot["y_m"]) == pytest.approx((0.52, -0.3), abs=1e-3)
     assert robot["heading_rad"] == pytest.approx(0.0, abs=0.01)

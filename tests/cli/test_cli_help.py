@@ -13,6 +13,7 @@ COMMANDS = [
     "print", "print marker", "print sheet", "print board", "print board grid",
     "print board aprilgrid", "print board chessboard", "print board charuco",
     "twin", "twin render", "twin list",
+    "arena", "arena calibrate", "arena audit", "arena mount", "arena run",
 ]  # fmt: skip
 LIMIT_S = 0.5
 HEAVY = ("numpy", "cv2", "scipy", "av", "pyarrow", "reportlab", "yaml", "numba")

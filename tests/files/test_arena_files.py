@@ -98,6 +98,22 @@ def test_floor_markers_may_be_measured_by_hand(tmp_path: Path) -> None:
     assert found.origin is None
 
 
+def test_a_board_may_lie_on_the_floor(tmp_path: Path) -> None:
+    floor = ARENA[ARENA.index("floor:") : ARENA.index("sensor:")]
+    board = 'floor: {board: "grid:3x2:80mm:20mm:tag36h11:100"}\n'
+    found = load_arena(written(tmp_path, ARENA.replace(floor, board)))
+    assert [one.key.id for one in found.floor] == [100, 101, 102, 103, 104, 105]
+    assert found.measured_floor is not None
+    at = found.measured_floor.markers[0].T_world_marker.translation
+    np.testing.assert_allclose(at, [-0.1, 0.05, 0.0], atol=1e-12)
+    for bad, match in (("chessboard:9x6:25mm", "has no markers"), ("grid:3", "floor.board: ")):
+        with pytest.raises(InputError, match=match):
+            load_arena(written(tmp_path, ARENA.replace(floor, f'floor: {{board: "{bad}"}}\n')))
+    both = board.replace("}", ", markers: [{id: 1}]}")
+    with pytest.raises(InputError, match="expected markers or a board, found both"):
+        load_arena(written(tmp_path, ARENA.replace(floor, both)))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "match"),
     [

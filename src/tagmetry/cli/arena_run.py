@@ -160,6 +160,9 @@ def _warn(result: "ArenaResult", told: set[str]) -> None:
     if step.is_bumped and step.bump is not None and "bump" not in told:
         told.add("bump")
         remarks.append(f"all robots are stopped: {step.bump.told}")
+    if step.bump is not None and step.bump.seen == 0 and "floor" not in told:
+        told.add("floor")
+        remarks.append(step.bump.told)
     for key in step.strangers:
         if str(key) not in told:
             told.add(str(key))

@@ -29,7 +29,9 @@ from tagmetry.files.arena.tables import (
     RobotTable,
     SensorTable,
 )
+from tagmetry.files.board_text import parse_board
 from tagmetry.files.checked import checked
+from tagmetry.files.plain import shortened
 from tagmetry.files.tables import load_yaml
 from tagmetry.files.text import named_errors
 from tagmetry.geometry import RigidTransform
@@ -212,10 +214,12 @@ def _key(text: str | None) -> bytes | None:
 
 
 def _floor(table: ArenaTable) -> tuple[FloorMarker, ...]:
+    if table.floor.board is not None:
+        return _board(table.floor.board, table.floor)
     if not table.floor.markers:
         raise InputError(
             "floor.markers: there is none; lay at least one marker on the floor, better four "
-            "toward the image's corners, and list them"
+            "toward the image's corners, and list them; or lay a board, and name it (floor.board)"
         )
     floor = tuple(_floor_marker(one, table) for one in table.floor.markers)
     keys = [one.key for one in floor]
@@ -229,6 +233,21 @@ def _floor(table: ArenaTable) -> tuple[FloorMarker, ...]:
             "leave all to calibration"
         )
     return floor
+
+
+def _board(text: str, table: FloorTable) -> tuple[FloorMarker, ...]:
+    """Return the markers of a board whose frame is the world's."""
+    if table.markers:
+        raise InputError("floor: expected markers or a board, found both")
+    with named_errors("floor.board"):
+        markers = parse_board(text).markers()
+    if not markers:
+        raise InputError(
+            f"floor.board: {shortened(text)} has no markers; take a grid or a ChArUco board"
+        )
+    return tuple(
+        FloorMarker(MarkerKey(one.family, one.id), one.size_m, one.T_body_marker) for one in markers
+    )
 
 
 def _floor_marker(one: FloorMarkerTable, table: ArenaTable) -> FloorMarker:

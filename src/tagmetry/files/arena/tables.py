@@ -61,9 +61,10 @@ class FloorMarkerTable(OwnFileModel):
 
 
 class FloorTable(OwnFileModel):
-    """The markers on the floor, and the frame that they make."""
+    """The markers on the floor, or a board that lies on it, and the frame that they make."""
 
-    markers: list[FloorMarkerTable]
+    markers: list[FloorMarkerTable] = Field(default_factory=list)
+    board: str | None = None
     origin: int | None = None
     toward: int | None = None
     size_m: float | None = None

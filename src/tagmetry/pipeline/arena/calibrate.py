@@ -35,13 +35,13 @@ def calibrate_arena(
 def world_of(detections: Sequence[Detection], setup: ArenaSetup, camera: Camera) -> ArenaWorld:
     """Return the arena's world as the markers of one image, or their means, tell it."""
     of_floor = [one for one in detections if _is_of_floor(one, setup)]
-    _check_all(of_floor, setup)
     floor = setup.measured_floor
     if floor is not None:
         view = view_from_floor(of_floor, floor, camera)
         return ArenaWorld(view, floor, floor_corners(of_floor, floor))
     if setup.origin is None:
         raise InputError("floor.origin is missing: which floor marker is the world's origin?")
+    _check_all(of_floor, setup)
     sizes_m = {one.key: one.size_m for one in setup.floor}
     asked = [sizes_m[MarkerKey(one.family, one.id)] for one in of_floor]
     laid = lay_floor(of_floor, asked, camera, setup.origin, setup.toward)
@@ -60,7 +60,7 @@ def _is_of_floor(detection: Detection, setup: ArenaSetup) -> bool:
 
 
 def _check_all(of_floor: Sequence[Detection], setup: ArenaSetup) -> None:
-    """Refuse a floor of which markers are hidden: what calibration does not see is not watched."""
+    """Refuse a floor of which markers are hidden: they would have no place."""
     seen = {MarkerKey(one.family, one.id) for one in of_floor}
     hidden = [one.key for one in setup.floor if one.key not in seen]
     if hidden:
