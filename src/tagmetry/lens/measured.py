@@ -18,7 +18,7 @@ from tagmetry.camera import Camera
 from tagmetry.detect import Detection
 from tagmetry.geometry import Array, RigidTransform, cross_matrix, pose_difference
 from tagmetry.geometry.transforms import Rotation
-from tagmetry.lens.accuracy import unmodelled_px
+from tagmetry.lens.accuracy import DESCRIBED_PX, unmodelled_px
 from tagmetry.lens.readable import MarkerKind
 from tagmetry.lens.setting import LensSetting
 from tagmetry.lens.zoom_lens import ZoomLens
@@ -105,12 +105,15 @@ def _with_model_error(
 ) -> Detection:
     """Return the detection with what no noise tells added to its corners' covariance."""
     resolved_per_px = min(1.0, lens.native_percent / setting.zoom_percent)
-    side_px = _least_extent_px(detection) * resolved_per_px
-    sharp_or_not_px = blur_px if np.isfinite(blur_px) else 0.0
-    error_px = (
-        unmodelled_px(side_px, marker.side_cells, sharp_or_not_px, resolved_per_px)
-        / resolved_per_px
+    side_px = _least_extent_px(detection)
+    depth_m = lens.focal_px(setting.magnification) * marker.size_m / detection.side_px
+    defocus_px = lens.blur_of_depth_px(setting, depth_m) / 4
+    if np.isfinite(blur_px):
+        defocus_px = max(defocus_px, blur_px) if blur_px > DESCRIBED_PX else defocus_px
+    error_px = unmodelled_px(
+        side_px * resolved_per_px, marker.side_cells, defocus_px, resolved_per_px
     )
+    error_px /= resolved_per_px
     more_px2 = error_px**2 * np.eye(8)
     return replace(detection, corners_cov_px2=detection.corners_cov_px2 + more_px2)
 

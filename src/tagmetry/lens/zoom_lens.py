@@ -66,6 +66,22 @@ class ZoomLens:
             self.zoom.nearest(zoom_percent), self.focus.nearest(self.law.value(inside_m))
         )
 
+    def softly_at(self, depth_m: float, zoom_percent: float, soft_px: float) -> LensSetting:
+        """Return the setting that is focused a little before a depth.
+
+        Args:
+            depth_m: Where the marker is.
+            zoom_percent: The zoom.
+            soft_px: Standard deviation of the blur at the depth, pixels of the sensor.
+        """
+        inside_m = float(np.clip(depth_m, self.nearest_m, self.farthest_m))
+        resolved = min(zoom_percent, self.native_percent) / 100
+        nearer = 4 * soft_px / (self.focal_px(resolved) * self.aperture_m)
+        focused_m = 1 / (1 / inside_m + nearer)
+        return LensSetting(
+            self.zoom.nearest(zoom_percent), self.focus.nearest(self.law.value(focused_m))
+        )
+
     def blur_of_depth_px(self, setting: LensSetting, depth_m: float) -> float:
         """Return the diameter of the disc that a point at a depth is spread over, pixels."""
         off = abs(1 / depth_m - 1 / self.law.depth_m(setting.focus))

@@ -25,7 +25,7 @@ def measure_marker(
     lag: Lag | None = None,
     plan: Sequence[LensSetting] | None = None,
     tracks: bool = False,
-) -> Iterator[LensStep]:
+) -> Generator[LensStep]:
     """Give a step for each image, from the first to the final measurement of a marker.
 
     Args:
@@ -50,7 +50,7 @@ def measure_marker(
 
 def measure_markers(
     source: ControlledSource, task: LensTask, ids: Sequence[int], *, lag: Lag | None = None
-) -> Iterator[LensStep]:
+) -> Generator[LensStep]:
     """Give a step for each image while several markers are measured, one after the other.
 
     The camera begins each search where the last marker was, with what is near first.

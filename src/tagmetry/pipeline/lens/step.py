@@ -22,7 +22,7 @@ class LensStep:
         is_settled: Whether that is what was commanded, so that a measurement may be trusted.
         found: The marker, where it was seen.
         is_final: The marker's measurement has converged with this image.
-        busy_s: Computing time.
+        busy_s: Computing time, of all threads together.
         reason: Why nothing was found, or why this is the last step; empty otherwise.
     """
 

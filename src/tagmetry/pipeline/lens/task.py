@@ -1,7 +1,7 @@
 """What is looked for, with what, and how well it is to be known."""
 
 from dataclasses import dataclass
-from time import perf_counter
+from time import process_time
 from typing import Protocol
 
 from tagmetry.camera import Camera
@@ -55,7 +55,7 @@ class LensTask:
 
     def look(self, taken: Taken, phase: Phase) -> LensStep:
         """Return what an image shows of the marker, with the pose at the setting in effect."""
-        began_s = perf_counter()
+        began_s = process_time()
         image = taken.image
         camera = self.lens.camera_at(taken.setting)
         seen = self.finder.detect(image.pixels, camera)
@@ -71,7 +71,7 @@ class LensTask:
             taken.setting,
             taken.is_settled,
             found,
-            busy_s=perf_counter() - began_s,
+            busy_s=process_time() - began_s,
             reason=reason,
         )
 

@@ -73,5 +73,7 @@ def _view(true: Camera, depth_m: float, number: int, rng: np.random.Generator) -
     pixels = pixels + rng.normal(0, CORNER_SD_PX, pixels.shape)
     shown = np.asarray(true.contains(pixels))
     points = np.flatnonzero(shown)
-    sd_px = np.full(len(points), CORNER_SD_PX)
-    return BoardView(true.width_px, true.height_px, points, p_board[shown], pixels[shown], sd_px)
+    noise_px2 = np.tile(CORNER_SD_PX**2 * np.eye(2), (len(points), 1, 1))
+    return BoardView(
+        true.width_px, true.height_px, points, p_board[shown], pixels[shown], noise_px2
+    )
