@@ -60,6 +60,12 @@ def test_it_is_looked_everywhere_where_squares_outnumber_markers() -> None:
     assert again(LONE, both[:-1], both, SHAPE) is None
 
 
+def test_a_pattern_of_plain_squares_is_not_looked_at_again() -> None:
+    many = squares_at(*((20.0 * k, 20.0 * m, 10.0) for k in range(40) for m in range(26)))
+    assert again(squares_at(), squares_at(), many, SHAPE) is None
+    assert again(squares_at(), many[:1], many, SHAPE) == Box(0, 0, 1920, 1080)
+
+
 @pytest.mark.parametrize(("side_px", "worth"), [(15.0, True), (17.0, False)])
 def test_it_is_looked_everywhere_where_markers_are_about_the_smallest(
     side_px: float, worth: bool

@@ -4,7 +4,8 @@ Markers that stand alone are found at a glance. Those of boards may touch each o
 between them, so where many markers have neighbours it is looked for more around these: pictures in
 borders beside them, or squares that touch their corners. Where there is no marker, or far more
 pictures than markers, something about them may be hard to see: it is looked everywhere. So it is
-where a marker is about the smallest that are wanted and those are too small for a glance.
+where a marker is about the smallest that are wanted and those are too small for a glance. Of a
+pattern of plain squares, a checkerboard for one, a glance is enough.
 """
 
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ _OF_A_SIZE = 0.2, 2.5  # a neighbour's side by the marker's
 _TOUCHING_FROM = 0.6  # of a marker's side, from centre to centre
 _TOUCHING = 0.15  # of a marker's side, from corner to corner
 _OF_BOARDS = 0.25  # so many of the markers have neighbours where there are boards
+_PATTERN = 1000  # squares without a picture in any are a pattern: other looks show more of it
 _AROUND = 2.0  # sides around them that are looked at again
 _ENOUGH_AROUND = 1.0  # sides around them: where these were looked at, it is not done again
 _SHORTEST = 0.4  # neighbours' sides, by the shortest of the markers
@@ -82,7 +84,7 @@ def again(
         looked_at: Where it was looked again already.
     """
     everywhere = Box(0, 0, shape[1], shape[0])
-    if looked_at.holds(everywhere):
+    if looked_at.holds(everywhere) or (not len(pictures_px) and len(squares_px) > _PATTERN):
         return None
     unread = (_apart_by_side(markers_px, pictures_px) > _NEAR[0]).all(axis=0).sum()
     if unread >= _UNREAD * len(markers_px) or (side_lengths(markers_px) < _SMALL * least_px).any():

@@ -6,16 +6,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numba import njit
 
-from tagmetry.detect.decode import Match, Reading, has_border, has_outline, nearest
+from tagmetry.detect.decode import Reading, Readings, has_border, has_outline
 from tagmetry.detect.detection import Detection, Rejection
+from tagmetry.detect.nearest import Match, Matches, nearest, nearest_of_each
 from tagmetry.detect.sample import side_lengths
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import BoolArray
+from tagmetry.geometry.arrays import BoolArray, IntArray
 from tagmetry.markers import MarkerFamily
 
 _LEAST_CONFIDENCE = 0.3
 _WEAK_CHANCE = 1e-4  # families that random bits pass for more often must be read clearly
 _LEAST_OF_WEAK = 0.85
+_MANY_BITS = 1000  # more than any code has
 _SAME_PLACE = 0.5  # centres closer than this share of a side, and sides alike, are one place
 _ALIKE = 1.6
 _TURNED = np.array([[0, 1, 2, 3], [1, 2, 3, 0], [2, 3, 0, 1], [3, 0, 1, 2]])
@@ -88,8 +90,47 @@ class Rules:
             )
         if match.confidence < _least_confidence(match.family):
             return f"{match.family.name} id {match.id} is too unclear ({match.confidence:.2f})"
-        upright_px = corners_px[_TURNED[match.quarters]]
-        return Candidate(upright_px, match, reading.contrast < 0, reading.sharp_outline)
+        return _candidate(corners_px, match, reading.contrast, reading.sharp_outline)
+
+    def markers_among(
+        self,
+        corners_px: Array,
+        is_bright: BoolArray,
+        readings: Readings,
+        families: Sequence[MarkerFamily],
+    ) -> list[Candidate]:
+        """Return the markers that squares show: those of which `judge` says so, all at once.
+
+        Args:
+            corners_px: The squares, shape (n, 4, 2).
+            is_bright: Whether each outline is that of a bright area, shape (n,).
+            readings: How they read in the layout of the families.
+            families: Families of one layout.
+        """
+        rows = self._possible(readings, is_bright != families[0].layout.white_border)
+        near = [nearest_of_each(readings, rows, one, self._forgiven(one)) for one in families]
+        best, passes = self._best_of_each(near)
+        found = [(rows[k], near[best[k]][k]) for k in np.flatnonzero(passes).tolist()]
+        contrasts, outlines = readings.measures[:, 1].tolist(), readings.measures[:, 3].tolist()
+        return [
+            _candidate(corners_px[row], match, contrasts[row], outlines[row])
+            for row, match in found
+        ]
+
+    def _best_of_each(self, near: Sequence[Matches]) -> tuple[IntArray, BoolArray]:
+        """Return which of some families' matches is the best, and whether it passes, (m,) each."""
+        over = np.stack([one.hammings - self._forgiven(one.family) for one in near])
+        clear = np.stack([one.confidences >= _least_confidence(one.family) for one in near])
+        best = (over + np.stack([one.hammings for one in near]) / _MANY_BITS).argmin(axis=0)
+        at = best, np.arange(over.shape[1])
+        return best, np.asarray((over[at] <= 0) & clear[at])
+
+    def _possible(self, readings: Readings, is_inverted: BoolArray) -> IntArray:
+        """Return which squares may be markers, whatever their bits say."""
+        rows, contrast = readings.bordered, readings.measures[readings.bordered, 1]
+        as_found = is_inverted[rows] == (contrast < 0)
+        wanted = as_found & ((contrast >= 0) | self.inverted)
+        return np.asarray(rows[wanted & readings.outlined[rows]])
 
     def _not_a_marker(self, reading: Reading, is_inverted: bool) -> str | None:
         """Return why a square is no marker at all, whatever its bits say; None when it may be."""
@@ -105,6 +146,10 @@ class Rules:
 
     def _forgiven(self, family: MarkerFamily) -> int:
         return family.forgiven_bits if self.forgive_bits is None else self.forgive_bits
+
+
+def _candidate(corners_px: Array, match: Match, contrast: float, sharp_outline: float) -> Candidate:
+    return Candidate(corners_px[_TURNED[match.quarters]], match, contrast < 0, sharp_outline)
 
 
 def _least_confidence(family: MarkerFamily) -> float:
@@ -167,11 +212,11 @@ def first_per_place(centres_px: Array, sides_px: Array) -> BoolArray:
     """
     first = np.ones(len(sides_px), np.bool_)
     for i in range(len(sides_px)):
+        x, y, side = centres_px[i, 0], centres_px[i, 1], sides_px[i]
         for k in range(i):
-            apart_x, apart_y = centres_px[i] - centres_px[k]
-            smaller, larger = min(sides_px[i], sides_px[k]), max(sides_px[i], sides_px[k])
-            near = np.hypot(apart_x, apart_y) < _SAME_PLACE * smaller
-            if first[k] and near and larger < _ALIKE * smaller:
+            apart2 = (x - centres_px[k, 0]) ** 2 + (y - centres_px[k, 1]) ** 2
+            smaller, larger = min(side, sides_px[k]), max(side, sides_px[k])
+            if first[k] and apart2 < (_SAME_PLACE * smaller) ** 2 and larger < _ALIKE * smaller:
                 first[i] = False
                 break
     return first

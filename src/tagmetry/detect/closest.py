@@ -3,7 +3,7 @@
 import numpy as np
 from numba import njit
 
-from tagmetry.geometry.arrays import Array
+from tagmetry.geometry.arrays import Array, IntArray
 from tagmetry.markers.packed import Words
 
 _PAIRS = np.uint64(0x5555555555555555)
@@ -25,14 +25,23 @@ def closest(read: Words, codes: Words) -> tuple[int, int]:
     for index in range(len(codes)):
         differing = 0
         for word in range(read.size):
-            differing += _count(codes[index, word] ^ read[word])
+            differing += count_ones(codes[index, word] ^ read[word])
         if differing < fewest:
             best, fewest = index, differing
     return best, fewest
 
 
 @njit(cache=True, nogil=True)
-def _count(word: np.uint64) -> int:
+def closest_of_each(read: Words, codes: Words) -> tuple[IntArray, IntArray]:
+    """Return what `closest` does of each of several codes (m, words), two arrays of shape (m,)."""
+    indices, hammings = np.empty(len(read), np.int64), np.empty(len(read), np.int64)
+    for i in range(len(read)):
+        indices[i], hammings[i] = closest(read[i], codes)
+    return indices, hammings
+
+
+@njit(cache=True, nogil=True)
+def count_ones(word: np.uint64) -> int:
     """Return the number of ones in a word, added up in parallel: in pairs, in fours, in eights."""
     word -= (word >> _ONE) & _PAIRS
     word = (word & _FOURS) + ((word >> _TWO) & _FOURS)
@@ -55,3 +64,12 @@ def clearness(margins: Array, code: Words) -> float:
         right = margins[k] if is_white else -margins[k]
         total += min(max(right, -1.0), 1.0)
     return total / margins.size
+
+
+@njit(cache=True, nogil=True)
+def clearness_of_each(margins: Array, codes: Words) -> Array:
+    """Return what `clearness` does of each of m readings, (m, bits), and codes, (m, words)."""
+    clear = np.empty(len(margins))
+    for i in range(len(margins)):
+        clear[i] = clearness(margins[i], codes[i])
+    return clear

@@ -12,11 +12,10 @@ from functools import cache
 
 import numpy as np
 
-from tagmetry.detect.closest import clearness, closest
 from tagmetry.detect.sample import cell_means, side_lengths, steps_across
 from tagmetry.geometry import Array, square_to_quad
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
-from tagmetry.markers import Layout, MarkerFamily
+from tagmetry.markers import Layout
 from tagmetry.markers.packed import Words, packed
 
 _LEAST_CONTRAST = 8.0  # grey values between black and white
@@ -83,24 +82,16 @@ class Readings:
         """Which of them have a border, so that their bits were read, shape (k,)."""
         return np.asarray(np.flatnonzero(self.measures[:, 0] >= 1 - _BORDER_ERRORS))
 
+    @property
+    def outlined(self) -> BoolArray:
+        """Whether `has_outline` says so of each, shape (n,)."""
+        return np.asarray(self.measures[:, 3:].max(axis=1) >= _LEAST_OUTLINE)
 
-@dataclass(frozen=True)
-class Match:
-    """The nearest marker of a family.
-
-    Attributes:
-        family: The family.
-        id: The nearest marker's id.
-        quarters: By how many quarters clockwise it is turned against the quadrilateral.
-        hamming: How many bits differ.
-        confidence: Mean clearness of all cells, those read wrong counting against, 0 to 1.
-    """
-
-    family: MarkerFamily
-    id: int
-    quarters: int
-    hamming: int
-    confidence: float
+    @property
+    def pictured(self) -> BoolArray:
+        """Which of them have a border with something printed inside: a blot is black all over."""
+        pictured = (self.margins > 0).mean(axis=1) >= _LEAST_WHITE
+        return np.asarray(pictured & (self.measures[:, 0] >= 1 - _BORDER_ERRORS))
 
 
 def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> Readings:
@@ -150,23 +141,6 @@ def _outlines(
     return near, far
 
 
-def nearest(reading: Reading, family: MarkerFamily) -> Match:
-    """Return the marker of a family that differs in the fewest bits."""
-    index, hamming = closest(reading.words, family.packed_codes)
-    quarters, marker_id = divmod(index, len(family))
-    bits = len(reading.margins)
-    share = bits / (bits + len(_frame(family.layout)))
-    clear = clearness(reading.margins, family.packed_codes[index])
-    confidence = share * clear + (1 - share) * reading.border_margin
-    return Match(
-        family,
-        id=marker_id,
-        quarters=quarters,
-        hamming=hamming,
-        confidence=min(max(confidence, 0.0), 1.0),
-    )
-
-
 def free_colours(grey: GreyPixels, corners_px: Array, layout: Layout) -> BoolArray:
     """Return which of a layout's free cells are more white than black on a marker, shape (n,)."""
     H, reach = square_to_quad(corners_px)[None], _TAP_CELLS / layout.side_cells
@@ -179,11 +153,6 @@ def free_colours(grey: GreyPixels, corners_px: Array, layout: Layout) -> BoolArr
 def has_border(reading: Reading) -> bool:
     """Say whether enough of the frame's cells read as they are printed."""
     return reading.border_share >= 1 - _BORDER_ERRORS
-
-
-def has_picture(reading: Reading) -> bool:
-    """Say whether something is printed inside: a blot is black all over."""
-    return bool((reading.margins > 0).mean() >= _LEAST_WHITE)
 
 
 def has_outline(reading: Reading) -> bool:

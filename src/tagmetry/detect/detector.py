@@ -19,7 +19,7 @@ from tagmetry.detect.choose import (
     one_per_place,
     with_duplicates_marked,
 )
-from tagmetry.detect.decode import Reading, has_picture, read
+from tagmetry.detect.decode import read
 from tagmetry.detect.detection import Detection, Findings, Rejection
 from tagmetry.detect.exact import exact_corners
 from tagmetry.detect.expected import expected_picture
@@ -79,9 +79,9 @@ class Detector:
         """Return the markers, and the squares that were turned down, each with the reason."""
         grey = self._checked(image, camera)
         found = squares(grey, self.min_side_px or default_min_side_px(grey.size), bright=True)
-        judged = list(self._judged(grey, found, every=True))
-        candidates = [verdict for *_, verdict in judged if isinstance(verdict, Candidate)]
-        rejections = [Rejection(at, reason) for at, _, reason in judged if isinstance(reason, str)]
+        judged = list(self._judged(grey, found))
+        candidates = [verdict for _, verdict in judged if isinstance(verdict, Candidate)]
+        rejections = [Rejection(at, reason) for at, reason in judged if isinstance(reason, str)]
         detections = _detections(grey, best_per_place(candidates), camera)
         return Findings(detections, distinct_rejections(rejections, detections))
 
@@ -132,30 +132,25 @@ class Detector:
     def _has_white_borders(self) -> bool:
         return any(layout.white_border for layout in self._families_by_layout)
 
-    def _judged(
-        self, grey: GreyPixels, found: Squares, *, every: bool
-    ) -> Iterator[tuple[Array, Reading | None, Candidate | str]]:
-        """Give squares, how each reads, and the marker that it shows or the reason why none.
-
-        Of those without a border nothing is said unless every square is asked for.
-        """
+    def _judged(self, grey: GreyPixels, found: Squares) -> Iterator[tuple[Array, Candidate | str]]:
+        """Give every square, and the marker that it shows or the reason why it shows none."""
         for layout, families in self._families_by_layout.items():
-            here = every | self.rules.inverted | (found.is_bright == layout.white_border)
-            corners_px, is_bright = found.corners_px[here], found.is_bright[here]
-            readings = read(grey, corners_px, layout)
-            for i in range(len(readings)) if every else readings.bordered.tolist():
-                reading = readings[i]
-                verdict = self.rules.judge(corners_px[i], bool(is_bright[i]), reading, families)
-                yield corners_px[i], reading, verdict
+            readings = read(grey, found.corners_px, layout)
+            for corners_px, is_bright, reading in zip(
+                found.corners_px, found.is_bright, readings, strict=True
+            ):
+                yield corners_px, self.rules.judge(corners_px, bool(is_bright), reading, families)
 
     def _read(self, grey: GreyPixels, found: Squares) -> tuple[list[Candidate], Array]:
         """Return the squares that read as markers, and where there is a picture in a border."""
-        candidates, pictures_px = [], [np.empty((0, 4, 2))]
-        for corners_px, reading, verdict in self._judged(grey, found, every=False):
-            if reading is not None and has_picture(reading):
-                pictures_px.append(corners_px[None])
-            if isinstance(verdict, Candidate):
-                candidates.append(verdict)
+        candidates: list[Candidate] = []
+        pictures_px = [np.empty((0, 4, 2))]
+        for layout, families in self._families_by_layout.items():
+            here = self.rules.inverted | (found.is_bright == layout.white_border)
+            corners_px, is_bright = found.corners_px[here], found.is_bright[here]
+            readings = read(grey, corners_px, layout)
+            candidates += self.rules.markers_among(corners_px, is_bright, readings, families)
+            pictures_px.append(corners_px[readings.pictured])
         return candidates, one_per_place(np.concatenate(pictures_px))
 
 
@@ -192,8 +187,7 @@ def default_min_side_px(pixel_count: int) -> float:
 
 
 def _touches_border(corners_px: Array, grey: GreyPixels) -> bool:
-    height_px, width_px = grey.shape
-    low, high = corners_px.min(axis=0), corners_px.max(axis=0)
-    return bool(
-        low.min() < _BORDER_PX or (high > np.array([width_px, height_px]) - 1 - _BORDER_PX).any()
+    last_row, last_column = grey.shape[0] - 1, grey.shape[1] - 1
+    return any(
+        min(x, y, last_column - x, last_row - y) < _BORDER_PX for x, y in corners_px.tolist()
     )

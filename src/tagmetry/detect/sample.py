@@ -25,8 +25,8 @@ def steps_across(grey: GreyPixels, corners_px: Array, reach_px: Array) -> Array:
 
 def side_lengths(corners_px: Array) -> Array:
     """Return the lengths of the sides of squares (n, 4, 2), shape (n, 4), pixels."""
-    sides = np.roll(corners_px, -1, axis=1) - corners_px
-    return np.asarray(np.linalg.norm(sides, axis=2))
+    sides = corners_px[:, [1, 2, 3, 0]] - corners_px
+    return np.hypot(sides[..., 0], sides[..., 1])
 
 
 def cell_means(grey: GreyPixels, H: Array, at: Array, reach: float) -> Array:

@@ -4,15 +4,12 @@ import cv2
 import numpy as np
 import pytest
 
-from tagmetry.detect.closest import clearness, closest
 from tagmetry.detect.segment.corners import far_points, four_corners
 from tagmetry.detect.segment.distinct import distinct
 from tagmetry.detect.segment.mask import dark_mask
-from tagmetry.detect.segment.outline import at_level, midway, walk
+from tagmetry.detect.segment.outline import at_level, midway, steps, walk
 from tagmetry.detect.segment.starts import starts
 from tagmetry.detect.segment.tiles import Extremes, Tiles, noise_gate, tile_extremes
-from tagmetry.markers import family
-from tagmetry.markers.packed import packed
 
 RNG = np.random.default_rng(0)
 SIZES = [(4, 4), (5, 9), (8, 8), (31, 70), (48, 64)]
@@ -61,16 +58,22 @@ def beginnings(mask: np.ndarray) -> np.ndarray:
     return starts(mask, grey, tile_extremes(grey)[0], mask.size)
 
 
+def walk_on(mask: np.ndarray, start: np.ndarray, cracks: np.ndarray) -> int:
+    """Walk on a mask with rows, and return how many cracks were written."""
+    width = mask.shape[1]
+    return walk(mask.reshape(-1), width, steps(width), start, cracks)
+
+
 def walked(mask: np.ndarray) -> tuple[list[np.ndarray], int]:
     """All outlines of a mask as cracks (n, 3), and how many cracks were written in all."""
-    outlines, steps = [], 0
+    outlines, count = [], 0
     for start in beginnings(mask):
         cracks = np.full((mask.size, 3), -1, np.int32)
-        length = walk(mask, start, cracks)
-        steps += np.count_nonzero(cracks[:, 2] >= 0)
+        length = walk_on(mask, start, cracks)
+        count += np.count_nonzero(cracks[:, 2] >= 0)
         if length:
             outlines.append(cracks[:length])
-    return outlines, steps
+    return outlines, count
 
 
 def middles(cracks: np.ndarray) -> np.ndarray:
@@ -153,7 +156,7 @@ def test_an_outline_surrounds_its_component_clockwise() -> None:
     assert len(cracks) == 2 * (15 + 9)
     assert area(middles(cracks)) == pytest.approx(9 * 4 + 4 * 11, abs=3)  # the corners are cut
     short = np.empty((len(cracks) - 1, 3), np.int32)
-    assert walk(mask_of(dark), np.array([6, 4], np.int32), short) == 0
+    assert walk_on(mask_of(dark), np.array([6, 4], np.int32), short) == 0
 
 
 def test_an_outline_passes_between_pixels_where_the_level_does() -> None:
@@ -203,33 +206,3 @@ def test_squares_seen_twice_are_kept_once() -> None:
     others = [np.roll(square, 2, axis=0) + 0.1, square + 2.0, square + np.array([0.0, 30.0])]
     expected = [True, False, True, True]
     np.testing.assert_array_equal(distinct(np.stack([square, *others])), expected)
-
-
-@pytest.mark.parametrize("name", ["tag36h11", "4x4_50", "7x7_1000"])
-def test_the_closest_code_differs_in_the_fewest_bits(name: str) -> None:
-    one = family(name)
-    for _ in range(20):
-        read = RNG.random(one.layout.bit_count) < 0.5
-        wrong = ((one.turned_codes > 0) != read).sum(axis=1)
-        index, count = closest(packed(read[None])[0], one.packed_codes)
-        assert (index, count) == (wrong.argmin(), wrong.min())
-
-
-def test_codes_longer_than_a_word_are_packed_too() -> None:
-    bits = RNG.random((5, 70)) < 0.5
-    index, count = closest(packed(bits[3:4])[0], packed(bits))
-    assert (index, count) == (3, 0)
-    flipped = bits[3].copy()
-    flipped[[0, 69]] ^= True
-    assert closest(packed(flipped[None])[0], packed(bits)) == (3, 2)
-
-
-@pytest.mark.parametrize("name", ["tag36h11", "4x4_50", "7x7_1000"])
-def test_how_clearly_a_code_was_read(name: str) -> None:
-    one = family(name)
-    margins = RNG.normal(0, 1.5, one.layout.bit_count)
-    for index in (0, len(one), 3 * len(one) + 7):
-        quarters, marker_id = divmod(index, len(one))
-        white = one.codes[marker_id][one.layout.rotations[quarters]]
-        expected = np.clip(np.where(white, margins, -margins), -1, 1).mean()
-        assert clearness(margins, one.packed_codes[index]) == pytest.approx(expected)

@@ -4,6 +4,20 @@ tiles (what is dark here?) -> mask -> starts (where may an outline begin?) -> ou
 around each) -> corners (four lines) -> look (all of these) -> squares (all looks).
 """
 
-from tagmetry.detect.segment.squares import DOUBLE_BELOW_PX, Squares, squares, squares_at_a_glance
+from tagmetry.detect.segment.squares import (
+    DOUBLE_BELOW_PX,
+    TURNS,
+    Squares,
+    squares,
+    squares_at_a_glance,
+    squares_in_turn,
+)
 
-__all__ = ["DOUBLE_BELOW_PX", "Squares", "squares", "squares_at_a_glance"]
+__all__ = [
+    "DOUBLE_BELOW_PX",
+    "TURNS",
+    "Squares",
+    "squares",
+    "squares_at_a_glance",
+    "squares_in_turn",
+]

@@ -35,16 +35,16 @@ def far_points(points: Array, slack_px: float, indices: IntArray) -> bool:
     indices[1] = _farthest(points, points[begin, 0], points[begin, 1])
     if indices[1] < begin:
         indices[1] += n
-    stray = np.empty(4)
-    at = np.empty(4, np.int64)
-    for known in range(2, 5):
-        for k in range(known):
-            stray[k], at[k] = _strays(points, indices[k], indices[k + 1])
+    stray, at = np.empty(4), np.empty(4, np.int64)
+    for k in range(2):
+        stray[k], at[k] = _strays(points, indices[k], indices[k + 1])
+    for known in range(2, 4):
         worst = stray[:known].argmax()
-        if known < 4:
-            for k in range(known, worst, -1):
-                indices[k + 1] = indices[k]
-            indices[worst + 1] = at[worst]
+        for k in range(known, worst, -1):
+            indices[k + 1], stray[k], at[k] = indices[k], stray[k - 1], at[k - 1]
+        indices[worst + 1] = at[worst]
+        for k in range(worst, worst + 2):
+            stray[k], at[k] = _strays(points, indices[k], indices[k + 1])
     return bool(stray.max() <= slack_px + max(_STRAIGHT_PX, _STRAIGHT * _way(points, indices)))
 
 

@@ -16,15 +16,16 @@ def distinct(corners_px: Array) -> BoolArray:
         corners_px: Shape (n, 4, 2), clockwise from any corner.
     """
     first = np.ones(len(corners_px), np.bool_)
-    middle_y = np.empty(len(corners_px))
+    middle_x, middle_y = np.empty(len(corners_px)), np.empty(len(corners_px))
     for i in range(len(corners_px)):
-        middle_y[i] = corners_px[i, :, 1].mean()
+        middle_x[i], middle_y[i] = corners_px[i, :, 0].mean(), corners_px[i, :, 1].mean()
     order = np.argsort(middle_y, kind="mergesort")
     for here in range(len(order)):
         later = here + 1
         while later < len(order) and middle_y[order[later]] - middle_y[order[here]] < _SAME_PX:
             a, b = min(order[here], order[later]), max(order[here], order[later])
-            first[b] &= not (first[a] and _alike(corners_px[a], corners_px[b]))
+            if first[a] and abs(middle_x[a] - middle_x[b]) < _SAME_PX:
+                first[b] &= not _alike(corners_px[a], corners_px[b])
             later += 1
     return first
 

@@ -8,7 +8,7 @@ from numba import njit
 
 from tagmetry.detect.segment.corners import far_points, four_corners
 from tagmetry.detect.segment.mask import dark_mask
-from tagmetry.detect.segment.outline import at_level, midway, walk
+from tagmetry.detect.segment.outline import at_level, midway, steps, walk
 from tagmetry.detect.segment.starts import Places, starts
 from tagmetry.detect.segment.tiles import Tiles
 from tagmetry.geometry.arrays import Array, GreyPixels
@@ -83,8 +83,10 @@ def _outlined(
     corners = np.empty((len(begins), 4, 2))
     count = 0
     walked = np.empty((longest_px, 3), np.int32)
+    pixels, width = mask.reshape(-1), mask.shape[1]
+    table = steps(width)
     for start in begins:
-        cracks = walked[: walk(mask, start, walked)]
+        cracks = walked[: walk(pixels, width, table, start, walked)]
         if len(cracks) >= 3 * least_px and _may_be_a_square(cracks, least_px):
             square = _four_sided(cracks, grey, levels, outset_px, corners[count])
             count += square and _least_side(corners[count]) >= least_px

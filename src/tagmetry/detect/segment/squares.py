@@ -28,6 +28,7 @@ _GLANCE = Look(0.5, step_share=0.55), Look(0.5, thinned=True, step_share=0.55)
 _GLANCE_AT_SMALL = Look(0.5, step_share=0.55, most_px=48.0)
 _GLANCE_AT_FAINT = Look(0.7, step_share=0.55, most_px=48.0)
 _Plan = dict[float, tuple[Look, ...]]  # the looks at each scale
+TURNS = 4  # of looks that are taken one after another in images of a video
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +66,24 @@ def squares_at_a_glance(grey: GreyPixels, min_side_px: float, *, bright: bool) -
         del plan[1.0]
     elif min_side_px < DOUBLE_BELOW_PX:
         plan = {scale: (*looks, _GLANCE_AT_FAINT) for scale, looks in plan.items()}
+    return _both(grey, min_side_px, plan, bright)
+
+
+def squares_in_turn(grey: GreyPixels, min_side_px: float, turn: int, *, bright: bool) -> Squares:
+    """Return what one turn of looks finds: at a glance, then those it leaves out, and so on.
+
+    Args:
+        grey: 8-bit image.
+        min_side_px: Sides shorter than this are passed over.
+        turn: Which turn, 0 to TURNS - 1.
+        bright: Bright squares on dark as well.
+    """
+    if turn == 0:
+        return squares_at_a_glance(grey, min_side_px, bright=bright)
+    looks = (_LEVELS[0], _THIN, _LEVELS[2])[turn - 1]
+    plan: _Plan = dict.fromkeys(_plan(min_side_px), (looks,))
+    if turn == 2 and 2.0 in plan:
+        plan[2.0] = (_LEVELS[1],)
     return _both(grey, min_side_px, plan, bright)
 
 

@@ -66,7 +66,8 @@ class Tiles:
 
     def least_steps(self, share: float) -> GreyPixels:
         """Return a share of the range around each tile, grey values."""
-        return np.asarray(share * self.near.ranges, dtype=np.uint8)
+        shares = (share * np.arange(256)).astype(np.uint8)
+        return np.asarray(cv2.LUT(self.near.ranges, shares), dtype=np.uint8)
 
     def levels(self, share: float, gate: float) -> GreyPixels:
         """Return the grey value of each tile below which its pixels are dark; 0 in plain tiles.
@@ -88,8 +89,8 @@ def _levels(extremes: Extremes, share: float, gate: float) -> GreyPixels:
 
 def noise_gate(own: Extremes) -> float:
     """Return the difference of grey values that noise alone does not reach within nine tiles."""
-    ranges = np.bincount(own.ranges.ravel(), minlength=256)
-    plain = int(np.searchsorted(np.cumsum(ranges), _PLAIN_SHARE * own.darkest.size))
+    ranges = cv2.calcHist([own.ranges], [0], None, [256], [0, 256]).ravel()
+    plain = int(np.searchsorted(np.cumsum(ranges, dtype=np.int64), _PLAIN_SHARE * own.darkest.size))
     return max(_LEAST_GATE, _NOISE_REACH * plain)
 
 

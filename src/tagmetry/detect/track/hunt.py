@@ -23,11 +23,13 @@ class Part:
         box: Left, top, and past the right and bottom, shape (4,).
         least_px: Shortest side of markers.
         scale: At which it is looked at, 1 or less.
+        looks: Which turn of looks is taken; all where None.
     """
 
     box: IntArray
     least_px: float
     scale: float = 1.0
+    looks: int | None = None
 
 
 def whole(size_px: tuple[int, int], least_px: float) -> Part:
@@ -35,9 +37,9 @@ def whole(size_px: tuple[int, int], least_px: float) -> Part:
     return Part(np.array([0, 0, *size_px]), least_px)
 
 
-def turn_part(turn: Turn, width_px: int) -> Part:
+def turn_part(turn: Turn, width_px: int, looks: int) -> Part:
     """Return what is searched for new markers in one image."""
-    return Part(np.array([0, turn.top, width_px, turn.bottom]), turn.least_px, turn.scale)
+    return Part(np.array([0, turn.top, width_px, turn.bottom]), turn.least_px, turn.scale, looks)
 
 
 def due(missed: IntArray) -> BoolArray:

@@ -7,7 +7,7 @@ import numpy as np
 
 from tagmetry.detect.choose import Candidate, Rules, best_per_place
 from tagmetry.detect.decode import read
-from tagmetry.detect.segment import squares
+from tagmetry.detect.segment import Squares, squares, squares_in_turn
 from tagmetry.detect.track.greyed import Greyed
 from tagmetry.detect.track.hunt import Part
 from tagmetry.geometry import Array
@@ -46,29 +46,27 @@ class Search:
         if min(right - left, bottom - top) * part.scale < _LEAST_PART_PX:
             return []
         grey = _scaled(image.look_at(part.box[None])[top:bottom, left:right], part.scale)
-        found = squares(grey, part.scale * part.least_px, bright=self._bright)
+        found = self._squares(grey, part.scale * part.least_px, part.looks)
         corners_px = (found.corners_px + 0.5) / part.scale - 0.5 + [left, top]
         free = ~in_places(corners_px, known_px)
         judged = self._judged(image.grey, corners_px[free], found.is_bright[free])
         return best_per_place(judged)
 
+    def _squares(self, grey: GreyPixels, least_px: float, looks: int | None) -> Squares:
+        if looks is None:
+            return squares(grey, least_px, bright=self._bright)
+        return squares_in_turn(grey, least_px, looks, bright=self._bright)
+
     def _judged(self, grey: GreyPixels, corners_px: Array, is_bright: BoolArray) -> list[Candidate]:
         """Read squares in every layout."""
-        if not len(corners_px):
-            return []
-        judged: list[Candidate | str] = []
+        candidates: list[Candidate] = []
         for layout, families in self._by_layout.items():
             here = self._rules.inverted | (is_bright == layout.white_border)
-            judged += [
-                self._rules.judge(corners, bool(bright), reading, families)
-                for corners, bright, reading in zip(
-                    corners_px[here],
-                    is_bright[here],
-                    read(grey, corners_px[here], layout),
-                    strict=True,
-                )
-            ]
-        return [one for one in judged if isinstance(one, Candidate)]
+            readings = read(grey, corners_px[here], layout)
+            candidates += self._rules.markers_among(
+                corners_px[here], is_bright[here], readings, families
+            )
+        return candidates
 
 
 def in_places(corners_px: Array, known_px: Array) -> BoolArray:

@@ -13,6 +13,8 @@ from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, IntArray
 from tagmetry.markers import MarkerFamily
 
+_MOST_IDS = 2**32  # of a family
+
 
 @dataclass(frozen=True, eq=False)
 class Seen:
@@ -103,9 +105,9 @@ class Seen:
 
     def count_of_each(self) -> IntArray:
         """Return how often the family and id of each are there, shape (n,)."""
-        keys = np.stack([self.families, self.ids], axis=1)
-        _, which, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
-        return np.asarray(counts[which.ravel()])
+        keys = self.families * _MOST_IDS + self.ids
+        _, which, counts = np.unique(keys, return_inverse=True, return_counts=True)
+        return np.asarray(counts[which])
 
     def one_per_place(self) -> Self:
         """Return the markers without those whose family and id stand earlier in one place."""

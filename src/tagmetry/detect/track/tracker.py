@@ -18,6 +18,7 @@ from tagmetry.detect.detector import Detector, default_min_side_px
 from tagmetry.detect.exact import exact_corners
 from tagmetry.detect.expected import expected_picture
 from tagmetry.detect.refine import Corners
+from tagmetry.detect.segment import TURNS
 from tagmetry.detect.track.claims import claimed
 from tagmetry.detect.track.expected import as_expected
 from tagmetry.detect.track.followed import followed
@@ -102,7 +103,9 @@ class Tracker:
     def images_to_acquire(self, width_px: int, height_px: int) -> int:
         """Return after how many images of a size a new marker has been looked for at its place.
 
-        That is a bound for markers of all sizes that move less than 16 px per image.
+        That is a bound for markers of all sizes that move less than 16 px per image, and that a
+        glance finds. Those with faint borders, or that touch what is beside them, take four times
+        as many at most: the looks that they need take turns.
         """
         return len(turns(height_px, self._least_px((width_px, height_px)), self.strips))
 
@@ -188,7 +191,8 @@ class Tracker:
         if self._time_s is None:
             return whole(size_px, self._least_px(size_px))
         plan = turns(size_px[1], self._least_px(size_px), self.strips)
-        return turn_part(plan[self._turn % len(plan)], size_px[0])
+        rounds, place = divmod(self._turn, len(plan))
+        return turn_part(plan[place], size_px[0], rounds % TURNS)
 
     def _found(self, looked_at: Greyed, known: Known, expected: Seen) -> Seen:
         """Return the markers that searching finds beside those that were seen where expected."""
