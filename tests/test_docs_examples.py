@@ -55,6 +55,7 @@ HELD = (  # where a chessboard is held before a webcam: metres, degrees about x 
 )
 WRITTEN = {
     "arena.sh": ("lab.world.yaml", "states.jsonl"),
+    "arena_twin.sh": ("ways.png",),
     "bank.py": ("bank.yaml",),
     "calibrate.py": ("webcam.yaml",),
     "calibrate.sh": ("webcam.yaml", "webcam.html", "tables/camera.csv"),
@@ -80,6 +81,7 @@ WRITTEN = {
 SAID = {
     "arena.sh": "camera at x",
     "arena_state.py": "robot 1 knows of [2]",
+    "arena_twin.sh": "m driven, places within",
     "bank.py": "at focus 53: fx 1005.",
     "calibrate.py": "8 views leave projections uncertain",
     "calibrate.sh": "8 views leave projections uncertain",
@@ -100,12 +102,15 @@ SAID = {
     "recording.py": "photo.png [7, 8]",
     "robot_position.py": "camera at [ 4.15",
     "track.py": "0.20 s: 2 at",
+    "twin_arena.py": "true distance 200",
     "twin_render.sh": "wrote 3 pictures",
     "twin_scene.py": "farthest corner: 0.0",
     "wall_body.py": "from 2 markers",
 }
 AFTER = {"read_results.py": "detect.sh", "floor_positions.py": "detect_video.sh"}
 NEEDS = {
+    "arena_twin.sh": ["matplotlib", "mujoco"],
+    "twin_arena.py": ["mujoco"],
     "calibrate.sh": ["matplotlib"],
     "compare.sh": ["matplotlib"],
     "detect_drive.sh": ["av"],
@@ -234,6 +239,7 @@ def test_example_runs(name: str, shelf: Path, tmp_path: Path) -> None:
     shutil.copy(SCENES / "desk.yaml", tmp_path)
     shutil.copy(MAPS / "hall.yaml", tmp_path)
     shutil.copytree(shelf / "boards", tmp_path / "boards")
+    shutil.copy(EXAMPLES / "keep_away.py", tmp_path)
     if name.startswith("arena"):
         write_arena(tmp_path)
     write_ways(tmp_path)

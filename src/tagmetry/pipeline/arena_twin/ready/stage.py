@@ -45,7 +45,7 @@ def robot(number: int) -> Robot:
 
 def scattered(count: int, rng: np.random.Generator, apart_m: float = 0.3) -> list[Place]:
     """Return places all over the floor, no two nearer than what room there is allows."""
-    half = np.array(FLOOR_HALF_M)
+    half = np.array(FLOOR_HALF_M) - 0.15  # robots start whole within
     columns = int(np.ceil(np.sqrt(count * half[0] / half[1])))
     rows = int(np.ceil(count / columns))
     cell_m = 2 * half / [columns, rows]
