@@ -29,7 +29,7 @@ int main(int count, char **words) {
     for (;;) {
         int64_t rest_us = next_us ? (int64_t)(next_us - tm_now_us()) : 20000;
         tm_step(&robot, host, rest_us > 1000 ? (int)(rest_us / 1000) : 0);
-        if (robot.neighbours.captured_us != heard_us) {
+        if (id == 0 && robot.neighbours.captured_us != heard_us) {
             heard_us = robot.neighbours.captured_us;
             printf("%lld\\n", (long long)(tm_now_us() - heard_us));
             fflush(stdout);

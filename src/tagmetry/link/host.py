@@ -28,6 +28,8 @@ from tagmetry.link.wire import BEAT_US, BODIES, KEY_BYTES, PORT
 OnPacket = Callable[[Packet], None]
 
 _KEPT = 10_000  # messages that nobody takes
+_MOST_AT_ONCE = 256
+_GATHER_S = 0.001  # where packets come thick, a few are heard at a time: threads change less often
 _PATIENCE_US = 200_000  # with a program that neither sends nor pulses
 
 
@@ -161,25 +163,26 @@ class Host:
         with selectors.DefaultSelector() as selector:
             selector.register(self._socket, selectors.EVENT_READ)
             while not self._is_closing.is_set():
-                if selector.select(max(next_us - now_us(), 0) / 1e6):
-                    self._hear_some()
+                if selector.select(max(next_us - now_us(), 0) / 1e6) and self._hear_some() > 1:
+                    time.sleep(_GATHER_S)
                 if now_us() >= next_us:
                     next_us = now_us() + BEAT_US // 2
                     with self._lock:
                         self._beat()
                         self._emergency.count_down()
 
-    def _hear_some(self) -> None:
-        """Hear what has arrived, but leave time for the beats in a flood."""
-        for _ in range(64):
+    def _hear_some(self) -> int:
+        """Hear what has arrived, but leave time for the beats in a flood; return how many."""
+        for count in range(_MOST_AT_ONCE):
             try:
                 packet, address = self._socket.recvfrom(2048)
             except BlockingIOError:
-                return
+                return count
             except OSError:  # what some systems say of a robot that went away
                 continue
             with self._lock:
                 self._hear(packet, address)
+        return _MOST_AT_ONCE
 
     def _hear(self, packet: bytes, address: Address) -> None:
         heard = self._hearing.hear(packet, address, now_us())
