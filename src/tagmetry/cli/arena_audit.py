@@ -42,6 +42,7 @@ def audit(  # noqa: PLR0913 (each argument is an option)
     from tagmetry.arena import audit as audited
     from tagmetry.arena.averaged import averaged
     from tagmetry.cli.arena_options import opened, setup_and_world
+    from tagmetry.cli.warmup import tell_compiling
     from tagmetry.detect import Detector
     from tagmetry.files import resolve_family
 
@@ -49,6 +50,7 @@ def audit(  # noqa: PLR0913 (each argument is an option)
     place = _place(at) if at is not None else None
     setup, world = setup_and_world(arena, camera)
     detector = Detector([resolve_family(family)])
+    tell_compiling()
     with opened(source, world.view.camera) as taken:
         seen = averaged(
             [detector.detect(one.pixels, world.view.camera) for one in islice(taken, images)]

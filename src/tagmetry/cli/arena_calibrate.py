@@ -20,10 +20,12 @@ def calibrate(
 ) -> None:
     """Measure the arena's world from its floor markers, and write it beside the arena's file."""
     from tagmetry.cli.arena_options import opened, setup_and_camera
+    from tagmetry.cli.warmup import tell_compiling
     from tagmetry.files.arena import save_world
     from tagmetry.pipeline.arena import calibrate_arena
 
     setup, found = setup_and_camera(arena, camera)
+    tell_compiling()
     with opened(source, found) as taken:
         world = calibrate_arena(taken, setup, found, images)
     save_world(world, setup.world_file)

@@ -49,9 +49,11 @@ def run(  # noqa: PLR0913 (each argument is an option)
     """Follow the robots of an arena; print a line of JSON for each image."""
     from tagmetry.cli.arena_options import opened, setup_and_world
     from tagmetry.cli.interrupts import held_back
+    from tagmetry.cli.warmup import tell_compiling
     from tagmetry.pipeline.arena import ArenaMeasurement, Latency, run_arena
 
     setup, world = setup_and_world(arena, camera)
+    tell_compiling()
     latency = Latency()
     with ExitStack() as stack:
         images = stack.enter_context(opened(source, world.view.camera))
