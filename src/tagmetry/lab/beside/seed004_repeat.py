@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _SIZES_M = (0.16, 0.10)
 _CLOSED_M = 0.01
-_SHOWN = 100.0  # times as large the errors are drawn
+_SHOWN = 20.0  # times as large the errors are drawn
 _SETUP = (
     "Figure 11 tells no distances: the robot is 1.3 to 2.1 m from two of the three markers, which "
     "it sees from every place. It comes back to within 5 mm and 0.5 degrees; what is compared are "
@@ -104,7 +104,7 @@ def _maps(everything: Sample) -> tuple[ReportFigure, ...]:
             for one, color in ((everything.paper, RED), (everything.ours, BLUE)):
                 _draw_places(axes, one.where(size_m=size_m), color)
             axes.set(xlabel="x, m", ylabel="y, m", title=f"{100 * size_m:.0f} cm")
-            axes.set_aspect("equal")
+            axes.set(aspect="equal", xlim=(-1.0, 1.4), ylim=(-0.8, 2.2))
         figure.axes[0].legend(fontsize=8)
         return figure
 
