@@ -41,6 +41,11 @@ def test_carries_nothing_but_the_package_and_its_metadata(wheel: ZipFile) -> Non
     assert any(name.endswith("licenses/LICENSE") for name in wheel.namelist())
 
 
+def test_carries_the_robots_client_in_c(wheel: ZipFile) -> None:
+    folder = "tagmetry/link/client"
+    assert {f"{folder}/tagmetry_link.h", f"{folder}/tagmetry_link.c"} <= set(wheel.namelist())
+
+
 def test_installs_the_command(wheel: ZipFile) -> None:
     (name,) = (name for name in wheel.namelist() if name.endswith("entry_points.txt"))
     assert "tagmetry = tagmetry.cli.main:main" in wheel.read(name).decode()

@@ -74,3 +74,9 @@ def test_the_command_writes_the_sources(tmp_path: Path) -> None:
 def test_the_command_makes_a_key(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["arena", "key"]) == 0
     assert len(parse_key(capsys.readouterr().out.strip())) == 32
+
+
+def test_a_robot_s_program_imports_nothing_heavy() -> None:
+    source = "import sys, tagmetry.link; print(*{name.split('.')[0] for name in sys.modules})"
+    ran = subprocess.run([sys.executable, "-c", source], capture_output=True, text=True, check=True)
+    assert not {"numpy", "scipy", "cv2", "numba", "pydantic"} & set(ran.stdout.split())

@@ -34,7 +34,7 @@ def replay_arena(path: str | Path, measurement: ArenaMeasurement) -> Generator[R
     """Give every image of a recording, measured again and compared.
 
     Images that were recorded without loss give the same numbers, bit by bit; JPEG moves corners by
-    a few hundredths of a pixel.
+    about a hundredth of a pixel.
 
     Args:
         path: The recording.
