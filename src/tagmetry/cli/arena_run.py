@@ -100,7 +100,8 @@ def _talkers(
 
     host = open_host(stack, setup, link, recorder)
     range_m = setup.sensor.range_m if setup.sensor is not None else float("inf")
-    return [LinkTaker(host, range_m, poses=poses)]
+    ranges_m = {number: one.range_m for number, one in setup.sensors.items()}
+    return [LinkTaker(host, range_m, ranges_m, poses=poses)]
 
 
 def open_host(

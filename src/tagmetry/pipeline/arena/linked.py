@@ -1,5 +1,7 @@
 """What robots are told over the link: neighbours, their pose where they may know it, stops."""
 
+from collections.abc import Mapping
+
 from tagmetry.arena import Told, WorldState
 from tagmetry.link import Command, Host, Neighbour, Neighbours, Pose
 from tagmetry.pipeline.arena.measurement import ArenaResult, image_time_s
@@ -15,17 +17,25 @@ class LinkTaker:
     """
 
     def __init__(
-        self, host: Host, range_m: float, *, poses: bool = False, every_s: float = 0.02
+        self,
+        host: Host,
+        range_m: float,
+        ranges_m: Mapping[int, float] | None = None,
+        *,
+        poses: bool = False,
+        every_s: float = 0.02,
     ) -> None:
         """Send nothing yet.
 
         Args:
             host: The link, which is open.
             range_m: Reach of the sensor for neighbours, told with them.
+            ranges_m: Of some robots, by id, another one.
             poses: Robots may know where they are in the world.
             every_s: Least time between two messages to a robot; wireless nets stand no more.
         """
-        self._host, self._range_m, self._poses, self._every_s = host, range_m, poses, every_s
+        self._host, self._poses, self._every_s = host, poses, every_s
+        self._range_m, self._ranges_m = range_m, dict(ranges_m or {})
         self._sent_s = float("-inf")
         self._is_stopped = False
 
@@ -63,7 +73,8 @@ class LinkTaker:
             )
             for near in told.neighbours
         )
-        return Neighbours(captured_us, self._range_m, seen)
+        range_m = self._ranges_m.get(told.robot_id, self._range_m)
+        return Neighbours(captured_us, range_m, seen)
 
     def _send_poses(self, world: WorldState, captured_us: int) -> None:
         for state in world:
