@@ -7,17 +7,10 @@ from tagmetry.lab.report.chapter import chapters
 
 IMAGES = Path(__file__).parent / "images" / "lab"
 DRAWN = (
-<<<<<<< HEAD
     "detector_light", "detector_motion", "detector_side", "seed001_figure10",
     "seed001_figure12", "seed001_figure13a", "seed001_figure13b", "seed001_figure14",
     "seed001_figure9_paper", "seed001_figure9_tagmetry", "seed002_figure17", "seed002_sights",
-    "seed003_figure12",
-=======
-    "seed001_figure9_tagmetry", "seed001_figure9_paper", "seed001_figure10", "seed001_figure12",
-    "seed002_sights", "seed002_figure17", "seed003_figure12", "seed004_figure7",
-    "seed004_figure8", "seed004_figure12", "detector_side", "detector_motion",
-    "detector_light",
->>>>>>> d5c5b02 (Docs: seed 004 and the filter in the laboratory)
+    "seed003_figure12", "seed004_figure12", "seed004_figure7", "seed004_figure8",
 )  # fmt: skip
 DPI = 80
 
