@@ -44,6 +44,8 @@ class Detector:
         inverted: Look for markers printed white on black as well.
         min_side_px: Sides of markers shorter than this are not looked for; by default 8 in images
             of up to half a megapixel, 16 in those of two to eight, and more in larger ones.
+            A glance finds few below 10; those are looked for thoroughly where it finds no marker,
+            or one of less than twice this side.
     """
 
     def __init__(
