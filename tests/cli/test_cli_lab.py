@@ -25,7 +25,7 @@ def test_it_names_the_experiments() -> None:
 @pytest.mark.parametrize(
     ("arguments", "why"),
     [
-        (("run",), "name the experiments to run, or give --all; there are seed002-yaw, "),
+        (("run",), "name the experiments to run, or give --all; there are seed00"),
         (("run", "seed003-pose", "--all"), "name the experiments to run, or give --all"),
         (("run", "seed9"), "there is no experiment 'seed9'; there are"),
         (("run", "seed003-pose", "--cluster", "nowhere", "--jobs", 2), "--jobs is for"),
