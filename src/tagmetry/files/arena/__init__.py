@@ -1,6 +1,7 @@
 """An arena's files: what there is, as a person writes it, and its world, as it was measured."""
 
-from tagmetry.files.arena.setup import ArenaSetup, FloorMarker, load_arena
+from tagmetry.files.arena.floor import FloorMarker
+from tagmetry.files.arena.setup import ArenaSetup, load_arena
 from tagmetry.files.arena.world import ArenaWorld, load_world, save_world
 
 __all__ = [

@@ -1,61 +1,30 @@
 """An arena as its YAML file has it: robots, floor markers, fence, obstacles, sensors; checked."""
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
-
 from tagmetry.arena import (
-    Disc,
     Fence,
     Motion,
-    Mount,
     Neighbourhood,
     NeighbourSensor,
     Obstacle,
-    Robot,
     Roster,
     SafetyRules,
-    Wall,
 )
 from tagmetry.errors import InputError
-from tagmetry.files.arena.tables import (
-    ArenaTable,
-    FloorMarkerTable,
-    FloorTable,
-    ObstacleTable,
-    RobotTable,
-    SensorTable,
-)
-from tagmetry.files.board_text import parse_board
+from tagmetry.files.arena.floor import FloorMarker, floor_of, frame_of
+from tagmetry.files.arena.robots import robot_of
+from tagmetry.files.arena.senses import obstacle_of, point_of, sensor_of
+from tagmetry.files.arena.tables import ArenaTable
 from tagmetry.files.checked import checked
-from tagmetry.files.plain import shortened
 from tagmetry.files.tables import load_yaml
 from tagmetry.files.text import named_errors
-from tagmetry.geometry import RigidTransform
-from tagmetry.geometry.transforms import Rotation
 from tagmetry.localize import MapMarker, MarkerMap
 from tagmetry.markers.bodies import MarkerKey
 
 _VERSION = 1
-_KEY = re.compile(r"[0-9a-fA-F]{64}")
-
-
-@dataclass(frozen=True, eq=False)
-class FloorMarker:
-    """A marker on the floor.
-
-    Attributes:
-        key: Its family and id.
-        size_m: Side of its black square.
-        T_world_marker: Where it lies; None where calibration finds that.
-    """
-
-    key: MarkerKey
-    size_m: float
-    T_world_marker: RigidTransform | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,14 +125,14 @@ def load_arena(path: str | Path) -> ArenaSetup:
 
 
 def _setup(table: ArenaTable, path: Path) -> ArenaSetup:
-    floor = _floor(table)
+    floor = floor_of(table)
     if not table.robots:
         raise InputError("robots: there is none; list at least one with its id and its marker")
-    roster = Roster(tuple(_robot(one, table) for one in table.robots))
+    roster = Roster(tuple(robot_of(one, table) for one in table.robots))
     _check_apart(roster, floor)
-    origin, toward = _frame(table.floor, floor)
-    sensors = {one.id: _sensor(one.sensor) for one in table.robots if one.sensor is not None}
-    fence = None if table.fence_m is None else Fence(tuple(map(_point, table.fence_m)))
+    origin, toward = frame_of(table.floor, floor)
+    sensors = {one.id: sensor_of(one.sensor) for one in table.robots if one.sensor is not None}
+    fence = None if table.fence_m is None else Fence(tuple(map(point_of, table.fence_m)))
     world = table.world if table.world is not None else f"{path.stem}.world.yaml"
     return ArenaSetup(
         table.name,
@@ -173,112 +142,13 @@ def _setup(table: ArenaTable, path: Path) -> ArenaSetup:
         toward,
         path.parent / table.camera if table.camera is not None else None,
         path.parent / world,
-        _sensor(table.sensor) if table.sensor is not None else None,
+        sensor_of(table.sensor) if table.sensor is not None else None,
         sensors,
-        tuple(_obstacle(n, one) for n, one in enumerate(table.obstacles)),
+        tuple(obstacle_of(n, one) for n, one in enumerate(table.obstacles)),
         SafetyRules(table.safety.unseen_s, fence, table.safety.margin_m),
         Motion(**table.motion.model_dump()),
         table.seed,
     )
-
-
-def _robot(one: RobotTable, table: ArenaTable) -> Robot:
-    with named_errors(f"robot {one.id}"):
-        size_m = one.marker.size_m if one.marker.size_m is not None else table.marker_size_m
-        diameter_m = one.diameter_m if one.diameter_m is not None else table.diameter_m
-        if size_m is None:
-            raise InputError("the size of its marker is missing: marker.size_m, or marker_size_m")
-        if diameter_m is None:
-            raise InputError("its diameter is missing: diameter_m, here or for all robots")
-        mount = Mount(
-            one.marker.height_m,
-            one.marker.forward_m,
-            one.marker.left_m,
-            float(np.radians(one.marker.turn_deg)),
-            one.marker.height_sd_m,
-        )
-        family = one.marker.family or table.family
-        name = one.name if one.name is not None else f"robot {one.id}"
-        return Robot(one.id, name, diameter_m, family, one.marker.id, size_m, mount, _key(one.key))
-
-
-def _key(text: str | None) -> bytes | None:
-    if text is None:
-        return None
-    if not _KEY.fullmatch(text):
-        raise InputError(
-            f"expected a key of 64 hexadecimal digits, found {len(text)} characters that are not; "
-            "make one with tagmetry.link.new_key(), and put it in quotes"
-        )
-    return bytes.fromhex(text)
-
-
-def _floor(table: ArenaTable) -> tuple[FloorMarker, ...]:
-    if table.floor.board is not None:
-        return _board(table.floor.board, table.floor)
-    if not table.floor.markers:
-        raise InputError(
-            "floor.markers: there is none; lay at least one marker on the floor, better four "
-            "toward the image's corners, and list them; or lay a board, and name it (floor.board)"
-        )
-    floor = tuple(_floor_marker(one, table) for one in table.floor.markers)
-    keys = [one.key for one in floor]
-    for key in keys:
-        if keys.count(key) > 1:
-            raise InputError(f"floor.markers: {key.family} id {key.id} stands there twice")
-    placed = [one.T_world_marker is not None for one in floor]
-    if any(placed) and not all(placed):
-        raise InputError(
-            "floor.markers: some have a place (x_m and y_m) and some have none; measure all, or "
-            "leave all to calibration"
-        )
-    return floor
-
-
-def _board(text: str, table: FloorTable) -> tuple[FloorMarker, ...]:
-    """Return the markers of a board whose frame is the world's."""
-    if table.markers:
-        raise InputError("floor: expected markers or a board, found both")
-    with named_errors("floor.board"):
-        markers = parse_board(text).markers()
-    if not markers:
-        raise InputError(
-            f"floor.board: {shortened(text)} has no markers; take a grid or a ChArUco board"
-        )
-    return tuple(
-        FloorMarker(MarkerKey(one.family, one.id), one.size_m, one.T_body_marker) for one in markers
-    )
-
-
-def _floor_marker(one: FloorMarkerTable, table: ArenaTable) -> FloorMarker:
-    with named_errors(f"floor marker {one.id}"):
-        size_m = one.size_m if one.size_m is not None else table.floor.size_m
-        if size_m is None or not 0 < size_m < np.inf:
-            raise InputError(f"expected its size_m, here or for all, positive, found {size_m}")
-        key = MarkerKey(one.family or table.family, one.id)
-        if (one.x_m is None) != (one.y_m is None):
-            raise InputError("expected both x_m and y_m, or none of them")
-        if one.x_m is None or one.y_m is None:
-            return FloorMarker(key, size_m)
-        turn = Rotation.from_euler("z", one.turn_deg, degrees=True)
-        at = RigidTransform.from_components([one.x_m, one.y_m, 0.0], turn)
-        return FloorMarker(key, size_m, at)
-
-
-def _frame(
-    table: FloorTable, floor: tuple[FloorMarker, ...]
-) -> tuple[MarkerKey | None, MarkerKey | None]:
-    """Return the markers of the origin and of the x axis."""
-    by_id = {one.key.id: one.key for one in floor}
-    for name, marker_id in (("origin", table.origin), ("toward", table.toward)):
-        if marker_id is not None and marker_id not in by_id:
-            listed = ", ".join(map(str, by_id))
-            raise InputError(f"floor.{name}: {marker_id} is no floor marker; there are {listed}")
-    origin = by_id[table.origin] if table.origin is not None else floor[0].key
-    toward = by_id[table.toward] if table.toward is not None else None
-    if toward == origin:
-        raise InputError("floor.toward: the x axis needs another marker than the origin")
-    return (origin, toward) if floor[0].T_world_marker is None else (None, None)
 
 
 def _check_apart(roster: Roster, floor: tuple[FloorMarker, ...]) -> None:
@@ -289,27 +159,3 @@ def _check_apart(roster: Roster, floor: tuple[FloorMarker, ...]) -> None:
                 f"{one.key.family} id {one.key.id} is a floor marker and {robot.name}'s; each "
                 "marker has an id of its own"
             )
-
-
-def _sensor(table: SensorTable) -> NeighbourSensor:
-    numbers = {
-        name.replace("_deg", "_rad"): np.radians(value) if name.endswith("_deg") else value
-        for name, value in table.model_dump().items()
-    }
-    with named_errors("sensor"):
-        return NeighbourSensor(**numbers)
-
-
-def _obstacle(number: int, table: ObstacleTable) -> Obstacle:
-    name = table.name if table.name is not None else f"obstacle {number + 1}"
-    if table.center_m is not None and table.radius_m is not None and table.from_m is None:
-        return Disc(_point(table.center_m), table.radius_m, name)
-    if table.from_m is not None and table.to_m is not None and table.center_m is None:
-        return Wall(_point(table.from_m), _point(table.to_m), name)
-    raise InputError(f"{name}: expected a disc (center_m and radius_m) or a wall (from_m and to_m)")
-
-
-def _point(values: list[float]) -> tuple[float, float]:
-    if len(values) != 2:
-        raise InputError(f"expected a place [x, y] in metres, found {values}")
-    return values[0], values[1]
