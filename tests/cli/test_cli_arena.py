@@ -158,6 +158,7 @@ def test_a_turn_tells_how_the_marker_is_mounted(
             "0 of 6 are seen",
         ),
         (("run", "turn", "--link", "127.0.0.1:x"), "expected an address"),
+        (("run", "turn", "--controller", "mine.py"), "hear nothing without --link"),
         (("run", "turn", "--out", "states.txt"), "states.jsonl"),
     ],
 )

@@ -17,9 +17,12 @@ from tagmetry.arena import (
     StopForAll,
     WorldState,
 )
+from tagmetry.arena.drive import Twist
 from tagmetry.camera import Image
 from tagmetry.link import Host, RobotClient
 from tagmetry.pipeline.arena import ArenaResult
+from tagmetry.pipeline.arena.drivers import Drivers
+from tagmetry.pipeline.arena.guarded import Guarded
 from tagmetry.pipeline.arena.linked import LinkTaker
 
 KEYS = {number: bytes([number]) * 32 for number in (1, 2)}
@@ -45,7 +48,7 @@ def result() -> ArenaResult:
     now_s = time.monotonic()
     image = Image(np.zeros((1, 1), np.uint8), 7.0, "capture")
     step = ArenaStep(WORLD, NOTHING, (), None, False, ())
-    return ArenaResult(image, (), step, WORLD, told, decisions, StopForAll(), now_s, now_s)
+    return ArenaResult(image, (), step, WORLD, told, decisions, StopForAll(), {}, now_s, now_s)
 
 
 def until(
@@ -94,3 +97,12 @@ def test_the_stop_for_all_latches_on_the_robots_until_it_is_released() -> None:
         until(lambda: one.is_stopped, [one], taker, stopped)
         assert not one.may_move
         until(lambda: one.may_move and not one.is_stopped, [one], taker)
+
+
+def test_controllers_drive_robots_until_they_must_stop() -> None:
+    driven = Drivers({3: Guarded(lambda view: Twist(0.1, view.place.x_m))})
+    world = WorldState(7.0, (state(3, 0.3),))
+    may, must = Decision(3), Decision(3, ("not seen",), "not seen for 1 s")
+    assert driven.commands((), world, (may,), {})[3] == Twist(0.1, 0.3)
+    assert driven.commands((), world, (must,), {})[3] == Twist(0.0, 0.0)
+    driven.close()

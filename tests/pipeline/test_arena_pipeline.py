@@ -190,7 +190,7 @@ class Slow:
 def results(count: int) -> Iterator[ArenaResult]:
     for number in range(count):
         image = Image(np.zeros((1, 1), np.uint8), sequence=number)
-        yield ArenaResult(image, (), None, None, (), (), None, 0.0, 0.0)  # type: ignore[arg-type]
+        yield ArenaResult(image, (), None, None, (), (), None, {}, 0.0, 0.0)  # type: ignore[arg-type]
 
 
 def test_a_slow_taker_gets_the_newest_and_delays_nobody() -> None:

@@ -14,8 +14,8 @@ from tagmetry.arena import Fence, SafetyRules
 from tagmetry.arena.controllers import PathFollower
 from tagmetry.arena.drive import STILL, Twist
 from tagmetry.arena.place import Place
+from tagmetry.pipeline.arena.guarded import Guarded
 from tagmetry.pipeline.arena_twin import Scenario, TwinArena
-from tagmetry.pipeline.guarded import Guarded
 from tagmetry.twin.robots import SlipperyPatch
 
 

@@ -12,6 +12,7 @@ from tagmetry.cli.arena_options import ArenaFile, SourceName
 from tagmetry.cli.options import CameraFile
 
 if TYPE_CHECKING:
+    from tagmetry.arena.controllers import Controller
     from tagmetry.files.arena import ArenaSetup
     from tagmetry.link import Host
     from tagmetry.pipeline.arena import ArenaResult, Latency, Taker
@@ -40,6 +41,10 @@ def run(  # noqa: PLR0913 (each argument is an option)
     poses: Annotated[
         bool, typer.Option(help="Robots may know where they are, not only their neighbours.")
     ] = False,
+    controller: Annotated[
+        Path | None,
+        typer.Option(help="Python file with a function control(view) that drives every robot."),
+    ] = None,
     lead: Annotated[
         float, typer.Option(min=0.0, max=0.5, help="Predict so many seconds further ahead.")
     ] = 0.0,
@@ -53,11 +58,15 @@ def run(  # noqa: PLR0913 (each argument is an option)
     from tagmetry.pipeline.arena import ArenaMeasurement, Latency, run_arena
 
     setup, world = setup_and_world(arena, camera)
+    controllers = _controllers(controller, link)
     tell_compiling()
     latency = Latency()
     with ExitStack() as stack:
         images = stack.enter_context(opened(source, world.view.camera))
-        task = ArenaMeasurement.of(setup, world, is_live=images.is_live, lead_s=lead)
+        task = ArenaMeasurement.of(
+            setup, world, is_live=images.is_live, lead_s=lead, controllers=controllers
+        )
+        stack.callback(task.turning.drivers.close)
         recorder = _recorder(stack, record, lossless=lossless, live=images.is_live)
         takers = _talkers(stack, setup, link, recorder, poses=poses)
         takers += _writers(stack, out, recorder, quiet=quiet, live=images.is_live)
@@ -71,6 +80,18 @@ def run(  # noqa: PLR0913 (each argument is an option)
                 break
             _warn(result, told)
     _sum_up(latency)
+
+
+def _controllers(path: Path | None, link: str | None) -> "Callable[[int], Controller] | None":
+    """Return what makes every robot's controller; it needs a link to send its commands by."""
+    if path is None:
+        return None
+    from tagmetry.errors import InputError
+    from tagmetry.pipeline.arena.controller_file import load_controllers
+
+    if link is None:
+        raise InputError("--controller drives robots, and they hear nothing without --link ADDRESS")
+    return load_controllers(path)
 
 
 def _recorder(

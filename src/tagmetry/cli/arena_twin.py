@@ -67,9 +67,9 @@ def twin(  # noqa: PLR0913 (each argument is an option)
 
 def _scenario(controller: str, robots: int, delay_s: float, loss: float, seed: int) -> "Scenario":
     """Return a ready-made scenario, or robots all over the floor with a user's controllers."""
+    from tagmetry.pipeline.arena.controller_file import load_controllers
     from tagmetry.pipeline.arena_twin import Radio
     from tagmetry.pipeline.arena_twin.ready import driven_scenario, ready_scenario
-    from tagmetry.pipeline.controller_file import load_controllers
 
     if Path(controller).suffix == ".py":
         scenario = driven_scenario(load_controllers(Path(controller)), robots, seed)

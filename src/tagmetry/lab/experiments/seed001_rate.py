@@ -20,7 +20,7 @@ from tagmetry.lab.rigs.crowd import crowd, film, there_and_back
 from tagmetry.lab.rigs.overhead import CAMERA, FAMILY, T_WORLD_CAMERA
 from tagmetry.lab.rigs.overhead_paper import seen_places
 from tagmetry.lab.rows import Rate
-from tagmetry.pipeline.arena import ArenaMeasurement
+from tagmetry.pipeline.arena import ArenaMeasurement, Turning
 
 _LENGTH = 6  # of the film, which is played there and back
 _WARM = 10  # images that are not counted
@@ -52,7 +52,7 @@ def measure(case: Case, seed: int) -> Sequence[Rate]:
     task = _pipeline(case.robots)
     played = there_and_back(images, _WARM + case.images)
     few = there_and_back(images, 2 + case.images // 5)
-    size_m = task.robots[0].marker_size_m
+    size_m = task.turning.arena.roster.robots[0].marker_size_m
     return [
         _rate("tagmetry", case, played, _WARM, lambda one: len(task.measure(one).step.seen)),
         _rate("paper", case, few, 2, lambda one: len(seen_places(one.pixels, CAMERA, size_m))),
@@ -60,17 +60,11 @@ def measure(case: Case, seed: int) -> Sequence[Rate]:
 
 
 def _pipeline(count: int) -> ArenaMeasurement:
-    robots = crowd(count)
     view = OverheadView(CAMERA, T_WORLD_CAMERA, np.zeros((6, 6)))
+    arena = Arena(Roster(crowd(count)), view)
+    turning = Turning(arena, Neighbourhood(NeighbourSensor(0.3)))
     detector = Detector([FAMILY])
-    return ArenaMeasurement(
-        Arena(Roster(robots), view),
-        robots,
-        CAMERA,
-        detector,
-        Tracker(detector),
-        Neighbourhood(NeighbourSensor(0.3)),
-    )
+    return ArenaMeasurement(turning, CAMERA, detector, Tracker(detector))
 
 
 def _rate(

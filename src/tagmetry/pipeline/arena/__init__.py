@@ -6,6 +6,7 @@ from tagmetry.pipeline.arena.measurement import ArenaMeasurement, ArenaResult
 from tagmetry.pipeline.arena.posted import Posted
 from tagmetry.pipeline.arena.run import run_arena
 from tagmetry.pipeline.arena.taker import Taker
+from tagmetry.pipeline.arena.turning import Turn, Turning
 
 __all__ = [
     "ArenaMeasurement",
@@ -13,6 +14,8 @@ __all__ = [
     "Latency",
     "Posted",
     "Taker",
+    "Turn",
+    "Turning",
     "calibrate_arena",
     "run_arena",
 ]

@@ -7,6 +7,7 @@ from tagmetry.link import Command, Host, Neighbour, Neighbours, Pose
 from tagmetry.pipeline.arena.measurement import ArenaResult, image_time_s
 
 _US = 1_000_000
+_COMMAND_MS = 200
 
 
 class LinkTaker:
@@ -46,18 +47,24 @@ class LinkTaker:
             self._host.pulse()
             return
         self._sent_s = result.done_s
-        ahead_s = result.world.time_s - image_time_s(result.image)
-        captured_us = round((result.taken_s + ahead_s) * _US)
-        for one in result.decisions:
-            if one.must_stop:
-                self._host.send(one.robot_id, Command(valid_for_ms=0))
+        self._drive(result)
         for told in result.told:
-            self._host.send(told.robot_id, self._neighbours(told, captured_us))
+            self._host.send(told.robot_id, self._neighbours(told, round(result.taken_s * _US)))
         if self._poses:
-            self._send_poses(result.world, captured_us)
+            ahead_s = result.world.time_s - image_time_s(result.image)
+            self._send_poses(result.world, round((result.taken_s + ahead_s) * _US))
 
     def close(self) -> None:
         """The host falls silent by itself, and robots stop."""
+
+    def _drive(self, result: ArenaResult) -> None:
+        """Send commands, to stand still where a robot must not drive."""
+        for robot_id, twist in result.commands.items():
+            command = Command(twist.speed_mps, 0.0, twist.turn_rate_radps, _COMMAND_MS)
+            self._host.send(robot_id, command)
+        for one in result.decisions:
+            if one.must_stop:
+                self._host.send(one.robot_id, Command(valid_for_ms=0))
 
     def _stop(self, result: ArenaResult) -> None:
         if result.stop.is_pressed and not self._is_stopped:

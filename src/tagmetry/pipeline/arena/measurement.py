@@ -1,27 +1,21 @@
 """One image in, the state of all robots out: detect, follow, decide, and what each is told."""
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
-from tagmetry.arena import (
-    Arena,
-    ArenaStep,
-    Decision,
-    Neighbourhood,
-    Robot,
-    SafetyRules,
-    StopForAll,
-    Told,
-    WorldState,
-    decide,
-)
+from tagmetry.arena import Arena, ArenaStep, Decision, StopForAll, Told, WorldState
+from tagmetry.arena.controllers import Controller
+from tagmetry.arena.drive import Twist
 from tagmetry.camera import Camera, Image
 from tagmetry.detect import Detection, Detector, Tracker
 from tagmetry.errors import InputError
 from tagmetry.files.arena import ArenaSetup, ArenaWorld
 from tagmetry.files.families import resolve_family
 from tagmetry.files.text import named_errors
+from tagmetry.pipeline.arena.drivers import Drivers
+from tagmetry.pipeline.arena.guarded import Guarded
+from tagmetry.pipeline.arena.turning import Turning
 
 _LONGEST_LEAD_S = 0.5
 
@@ -35,9 +29,10 @@ class ArenaResult:
         detections: All its markers.
         step: What they tell.
         world: All robots at the time of sending.
-        told: What each robot may know, where there is a sensor.
+        told: What each robot may know, where there is a sensor, as of the image.
         decisions: Whether each robot may drive.
         stop: The stop for all.
+        commands: How every robot shall move that has a controller, by id.
         taken_s: When the image was there, on the clock `time.monotonic`.
         done_s: When all of this was known, on the same clock.
     """
@@ -49,6 +44,7 @@ class ArenaResult:
     told: tuple[Told, ...]
     decisions: tuple[Decision, ...]
     stop: StopForAll
+    commands: Mapping[int, Twist]
     taken_s: float
     done_s: float
 
@@ -63,25 +59,19 @@ class ArenaMeasurement:
     """What is done with every image of an arena.
 
     Attributes:
-        arena: Follows the robots.
-        robots: All of them.
+        turning: What is done with the markers.
         camera: Intrinsics of the images.
         detector: Finds the markers.
         tracker: Follows them from image to image; where None, every image is looked at whole.
-        neighbourhood: Says what each robot may know.
-        safety: When robots are stopped.
         is_live: Images arrive by themselves; the state is predicted to the time of sending.
         lead_s: How much later than the sending what is told takes effect, predicted as well.
         clock: Seconds that never go back.
     """
 
-    arena: Arena
-    robots: tuple[Robot, ...]
+    turning: Turning
     camera: Camera
     detector: Detector
     tracker: Tracker | None = None
-    neighbourhood: Neighbourhood | None = None
-    safety: SafetyRules = field(default_factory=SafetyRules)
     is_live: bool = False
     lead_s: float = 0.0
     clock: Callable[[], float] = time.monotonic
@@ -89,7 +79,6 @@ class ArenaMeasurement:
     def __post_init__(self) -> None:
         if not 0 <= self.lead_s <= _LONGEST_LEAD_S:
             raise InputError(f"lead_s must be 0 to {_LONGEST_LEAD_S} s, got {self.lead_s}")
-        self.stop = StopForAll()
 
     @classmethod
     def of(
@@ -100,8 +89,17 @@ class ArenaMeasurement:
         track: bool = True,
         is_live: bool = False,
         lead_s: float = 0.0,
+        controllers: Callable[[int], Controller] | None = None,
     ) -> "ArenaMeasurement":
         """Return the measurement of an arena's files.
+
+        Args:
+            setup: The arena.
+            world: As calibration found it.
+            track: Follow markers from image to image; else every image is looked at whole.
+            is_live: Images arrive by themselves.
+            lead_s: How much later than the sending what is told takes effect.
+            controllers: Makes a robot's controller from its id; robots drive themselves when None.
 
         Raises:
             InputError: A robot's marker would be higher than the camera.
@@ -109,14 +107,13 @@ class ArenaMeasurement:
         _check_below_camera(setup, world)
         arena = Arena(setup.roster, world.view, world.floor, world.reference, setup.motion)
         detector = Detector([resolve_family(name) for name in setup.families])
+        driven = setup.roster.robots if controllers is not None else ()
+        drivers = Drivers({one.id: Guarded(controllers(one.id)) for one in driven if controllers})
         return cls(
-            arena,
-            setup.roster.robots,
+            Turning(arena, setup.neighbourhood, setup.safety, drivers),
             world.view.camera,
             detector,
             Tracker(detector) if track else None,
-            setup.neighbourhood,
-            setup.safety,
             is_live,
             lead_s,
         )
@@ -132,40 +129,51 @@ class ArenaMeasurement:
             self.camera.check_image(image.width_px, image.height_px)
             time_s = image_time_s(image)
             detections = self._detections(image, time_s)
-            step = self.arena.take(detections, time_s)
-        if self.is_live and 0 <= taken_s - image.time_s < _LONGEST_LEAD_S:
-            taken_s = image.time_s  # a live source's clock is this one
-        world = self._world_at_sending(step, time_s, taken_s)
-        told = self.neighbourhood.tell(world) if self.neighbourhood is not None else ()
-        if step.is_bumped and step.bump is not None:
-            self.press_stop(step.bump.told, time_s)
-        decisions = decide(world, self.robots, self.safety, self.stop)
+            if self.is_live and 0 <= taken_s - image.time_s < _LONGEST_LEAD_S:
+                taken_s = image.time_s  # a live source's clock is this one
+            began_s = taken_s
+            turn = self.turning.turn(
+                detections, time_s, lambda: time_s + self._until_it_acts_s(began_s)
+            )
         return ArenaResult(
-            image, detections, step, world, told, decisions, self.stop, taken_s, self.clock()
+            image,
+            detections,
+            turn.step,
+            turn.world,
+            turn.told,
+            turn.decisions,
+            turn.stop,
+            turn.commands,
+            taken_s,
+            self.clock(),
         )
+
+    @property
+    def stop(self) -> StopForAll:
+        """The stop for all."""
+        return self.turning.stop
 
     def press_stop(self, why: str, time_s: float) -> None:
         """Stop all robots until `release_stop`."""
-        self.stop = self.stop.pressed(why, time_s)
+        self.turning.stop = self.stop.pressed(why, time_s)
 
     def release_stop(self) -> None:
         """Let robots drive again; a camera that was moved presses again at once."""
-        self.stop = self.stop.reset()
+        self.turning.stop = self.stop.reset()
 
     def _detections(self, image: Image, time_s: float) -> tuple[Detection, ...]:
         if self.tracker is None:
             return self.detector.detect(image.pixels, self.camera)
         return self.tracker.track(image.pixels, time_s, self.camera)
 
-    def _world_at_sending(self, step: ArenaStep, time_s: float, taken_s: float) -> WorldState:
-        """Return the world as it will be when what is told takes effect.
+    def _until_it_acts_s(self, taken_s: float) -> float:
+        """Return how long after the image what is told takes effect.
 
-        Of pictures and videos it is that of the image, so that every run gives the same.
+        Of pictures and videos only the lead counts, so that every run gives the same.
         """
         if not self.is_live:
-            return step.world if self.lead_s == 0 else self.arena.world_at(time_s + self.lead_s)
-        since_s = min(max(self.clock() - taken_s, 0.0), _LONGEST_LEAD_S)
-        return self.arena.world_at(time_s + since_s + self.lead_s)
+            return self.lead_s
+        return min(max(self.clock() - taken_s, 0.0), _LONGEST_LEAD_S) + self.lead_s
 
 
 def image_time_s(image: Image) -> float:

@@ -16,13 +16,14 @@ from tagmetry.arena.drive import Twist
 from tagmetry.arena.place import Place
 from tagmetry.detect import Detection
 from tagmetry.link import Command, Neighbour, Neighbours, Odometry, Pose, RobotLink, Telemetry
-from tagmetry.pipeline.arena_control import ArenaControl, Turn
+from tagmetry.pipeline.arena.drivers import Drivers
+from tagmetry.pipeline.arena.guarded import Guarded
+from tagmetry.pipeline.arena.turning import Turn, Turning
 from tagmetry.pipeline.arena_twin.air import HOST, Air
 from tagmetry.pipeline.arena_twin.base import Base
 from tagmetry.pipeline.arena_twin.eyes import CornerEye, Eye
 from tagmetry.pipeline.arena_twin.on_board import OnBoard
 from tagmetry.pipeline.arena_twin.scenario import Scenario
-from tagmetry.pipeline.guarded import Guarded
 from tagmetry.twin.robots import RobotsPhysics
 
 TICK_S = 0.008
@@ -82,12 +83,14 @@ class TwinArena:
         self._robots = {
             one.robot.id: OnBoard(one, keys[one.robot.id], rng) for one in scenario.robots
         }
-        self._controllers = {
-            one.robot.id: Guarded(one.controller())
-            for one in scenario.robots
-            if one.controller is not None and not one.on_board
-        }
-        self._control = ArenaControl(
+        drivers = Drivers(
+            {
+                one.robot.id: Guarded(one.controller())
+                for one in scenario.robots
+                if one.controller is not None and not one.on_board
+            }
+        )
+        self._turning = Turning(
             Arena(roster, scenario.view),
             Neighbourhood(
                 scenario.sensor,
@@ -96,7 +99,7 @@ class TwinArena:
                 seed=scenario.seed,
             ),
             scenario.rules,
-            self._controllers,
+            drivers,
         )
         self._odometry: dict[int, Odometry] = {}
         self._readings: dict[int, dict[str, float]] = {}
@@ -121,18 +124,17 @@ class TwinArena:
 
     def stop(self, why: str = "pressed") -> None:
         """Stop all robots, and keep them stopped."""
-        self._control.stop = self._control.stop.pressed(why, self.time_s)
+        self._turning.stop = self._turning.stop.pressed(why, self.time_s)
         self._base.stop()
 
     def release(self) -> None:
         """Let them move again."""
-        self._control.stop = StopForAll()
+        self._turning.stop = StopForAll()
         self._base.release()
 
     def close(self) -> None:
         """End the controllers' threads."""
-        for controller in self._controllers.values():
-            controller.close()
+        self._turning.drivers.close()
 
     def _tick(self) -> Iterator[Moment]:
         now_s = self.time_s
@@ -171,7 +173,7 @@ class TwinArena:
     def _moment(self, image_s: float, detections: tuple[Detection, ...], now_s: float) -> Moment:
         radio = self.scenario.radio
         acts_s = now_s + radio.delay_s + radio.jitter_s / 2
-        turn = self._control.turn(detections, image_s, acts_s)
+        turn = self._turning.turn(detections, image_s, lambda: acts_s)
         self._send(turn, now_s)
         return Moment(
             now_s,

@@ -1,0 +1,75 @@
+"""The controllers of robots that are driven from the host, and what each of them knows."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from tagmetry.arena import Decision, RobotState, Told, WorldState
+from tagmetry.arena.controllers import View
+from tagmetry.arena.drive import STILL, Twist
+from tagmetry.arena.own_motion import OwnMotion
+from tagmetry.arena.place import Place
+from tagmetry.pipeline.arena.guarded import Guarded
+
+
+class Drivers:
+    """Asks every robot's controller, unless the robot has to stop."""
+
+    def __init__(self, controllers: Mapping[int, Guarded]) -> None:
+        """Take controllers by robot's id; a robot without one gets no commands."""
+        self._controllers = controllers
+        self._moving = {robot_id: OwnMotion() for robot_id in controllers}
+
+    def judged(self, decisions: Sequence[Decision]) -> tuple[Decision, ...]:
+        """Return decisions in which a controller's fault is a reason to stop."""
+        return tuple(self._with_fault(one) for one in decisions)
+
+    def commands(
+        self,
+        told: Sequence[Told],
+        world: WorldState,
+        decisions: Sequence[Decision],
+        sensed_s: Mapping[int, float],
+    ) -> Mapping[int, Twist]:
+        """Return how every robot that has a controller shall move, by id.
+
+        Args:
+            told: What each may know, of those that have a sensor.
+            world: All robots when a command acts.
+            decisions: Who has to stop.
+            sensed_s: What moment each is told of, by id.
+        """
+        stopped = {one.robot_id for one in decisions if one.must_stop}
+        known = {one.robot_id: one for one in told}
+        commands = dict.fromkeys(self._controllers, STILL)
+        for state in world:
+            if state.id in self._controllers and state.id not in stopped:
+                own = known.get(state.id, Told(state.id, world.time_s, (), ()))
+                sensed = sensed_s.get(state.id, world.time_s)
+                commands[state.id] = self._asked(state, own, sensed)
+        for robot_id, twist in commands.items():
+            self._moving[robot_id].command(twist, world.time_s)
+        return commands
+
+    def close(self) -> None:
+        """End the controllers' threads."""
+        for controller in self._controllers.values():
+            controller.close()
+
+    def _asked(self, state: RobotState, told: Told, sensed_s: float) -> Twist:
+        view = View(
+            state.id,
+            state.time_s,
+            self._moving[state.id].at(state.time_s),
+            told.neighbours,
+            told.obstacles,
+            Place(state.x_m, state.y_m, state.heading_rad),
+            sensed_s,
+        )
+        return self._controllers[state.id](view)
+
+    def _with_fault(self, decision: Decision) -> Decision:
+        controller = self._controllers.get(decision.robot_id)
+        if controller is None or controller.fault is None:
+            return decision
+        told = "; ".join(part for part in (decision.told, controller.fault) if part)
+        return replace(decision, reasons=(*decision.reasons, "controller"), told=told)
