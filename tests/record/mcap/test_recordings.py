@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 import warnings
 from dataclasses import replace
@@ -277,10 +278,13 @@ def killed(runs: subprocess.Popen[str], path: Path, after_s: float) -> float:
 
 
 class SlowPieces:
-    """A disk that takes two seconds for every piece."""
+    """A disk that takes no piece before it is told to."""
+
+    def __init__(self) -> None:
+        self.may_go_on = threading.Event()
 
     def write(self, _: list[Entry]) -> None:
-        time.sleep(2.0)
+        self.may_go_on.wait(30.0)
 
     def finish(self) -> None:
         pass
@@ -289,18 +293,18 @@ class SlowPieces:
 def test_a_slow_disk_delays_nobody_and_drops_the_oldest(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("tagmetry.record.mcap.recorder.PieceWriter", lambda _: SlowPieces())
-    recorder = Recorder(tmp_path / "run.mcap")
-    recorder.__enter__()
-    recorder.state(STATE)
-    time.sleep(0.35)  # now it writes
-    start_s = time.thread_time()
-    for n in range(100):
-        recorder.image(replace(IMAGE, sequence=n))
-    assert time.thread_time() - start_s < 0.05
-    assert recorder.dropped_count >= 60
-    assert recorder._images[-1][1].sequence == 99
-    recorder._is_closing.set()
+    disk = SlowPieces()
+    monkeypatch.setattr("tagmetry.record.mcap.recorder.PieceWriter", lambda _: disk)
+    with Recorder(tmp_path / "run.mcap") as recorder:
+        recorder.state(STATE)
+        time.sleep(0.5)  # now it writes
+        start_s = time.thread_time()
+        for n in range(100):
+            recorder.image(replace(IMAGE, sequence=n))
+        assert time.thread_time() - start_s < 0.05
+        assert recorder.dropped_count >= 60
+        assert recorder._images[-1][1].sequence == 99
+        disk.may_go_on.set()
 
 
 def test_of_files_nothing_is_dropped(tmp_path: Path) -> None:
@@ -348,6 +352,17 @@ def test_a_full_disk_is_told_and_what_was_written_stays_whole(
         recorder.__exit__(None, None, None)
     assert path.stat().st_size <= 3000
     assert all(entry.topic == "/noise" for entry in read_damaged(path))
+
+
+def test_a_disk_that_is_full_from_the_beginning_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = PieceWriter
+    monkeypatch.setattr(
+        "tagmetry.record.mcap.recorder.PieceWriter", lambda file: real(FullDisk(file, 4))
+    )
+    with pytest.raises(InputError, match="No space left on device"):
+        Recorder(tmp_path / "run.mcap").__enter__()
 
 
 def test_what_json_cannot_hold_is_counted_and_passed_over(tmp_path: Path) -> None:

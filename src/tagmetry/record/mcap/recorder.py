@@ -74,7 +74,11 @@ class Recorder:
     def __enter__(self) -> Self:
         with refusing(self._path):
             self._file: BinaryIO = self._path.open("wb")
-            self._pieces = PieceWriter(self._file)
+            try:
+                self._pieces = PieceWriter(self._file)
+            except OSError:
+                self._file.close()
+                raise
         self._thread.start()
         return self
 
