@@ -3,13 +3,14 @@
 In pixels that the sensor really has ("resolved": beyond `native_percent` zoom only enlarges), with
 L the marker's side, c a cell, b the blur's standard deviation, a corner is known to about
 
-    s^2 = NOISE^2 b / L + (SHARP min(1, 10 / c) exp(-(b / 0.25)^2))^2 + LEFT^2
-          + (b^2 where it is too wide for a fit)
+    s^2 = NOISE^2 b / L + (SHARP min(1, 10 / c) exp(-(b / 0.25)^2))^2
+          + (LEFT max(1, 8 / c))^2 + (FLAT L)^2 + (b^2 where it is too wide for a fit)
 
 and the depth to the share s / (sqrt(2) L). The second term is what pixels miss of an edge that is
 sharper than they are: where exactly it lies between two of them. A lens out of focus by half a
 pixel spreads it over several, and takes it away, for hardly more noise: the sharpest image is not
-the best one. The constants were measured on the twin, against its truth.
+the best one. The constants were measured on the twin, against its truth; FLAT is what is left of
+markers that fill the image, whose parts are not all as sharp.
 """
 
 from dataclasses import dataclass
@@ -23,11 +24,13 @@ from tagmetry.lens.zoom_lens import ZoomLens
 _NOISE_PX = 0.02
 _SHARP_PX = 0.022
 _LEFT_PX = 0.003
+_SMALL_CELL_PX = 8.0
+_FLAT = 7e-5
 _SPREADS_PX = 0.25
 SOFT_PX = 0.5  # blur by defocus that is best, resolved pixels
 _FINE_CELL_PX = 10.0
 _SHARPEST_PX = 0.6  # what is left of the blur in focus, a pixel's own square in it
-DESCRIBED_PX = 3.0  # blur up to which a detector's picture of edges is right
+DESCRIBED_PX = 3.6  # blur up to which a detector's picture of edges is right
 
 
 @dataclass(frozen=True)
@@ -82,4 +85,5 @@ def unmodelled_px(
     beyond = blur_px if blur_px > DESCRIBED_PX else 0.0
     sharp_px = _SHARP_PX * min(1.0, _FINE_CELL_PX / cell_px)
     sharp_px *= float(np.exp(-((blur_px * resolved_per_px / _SPREADS_PX) ** 2)))
-    return float(np.linalg.norm([sharp_px, _LEFT_PX, beyond * resolved_per_px]))
+    left_px = _LEFT_PX * max(1.0, _SMALL_CELL_PX / cell_px)
+    return float(np.linalg.norm([sharp_px, left_px, _FLAT * side_px, beyond * resolved_per_px]))

@@ -22,6 +22,7 @@ from tagmetry.lens.zoom_lens import ZoomLens
 BLUR_OF_CELL = 0.75  # q: measured with tag36h11 on the twin, see docs/how/lens.md
 MOST_BOUND = 0.95
 _LEAST_SIDE_PX = 20.0  # shortest extent of a marker that a full HD image is searched for safely
+_SEARCHED_SIDE_PX = 28.0  # side of one that may be oblique
 _MOST_OF_IMAGE = 0.8  # of the image's height that a marker may fill
 
 
@@ -81,7 +82,7 @@ def widest_zoom_percent(lens: ZoomLens, marker: MarkerKind, depths: DepthRange) 
 
     It is no more than what leaves the marker at the near end within the image.
     """
-    needed = _LEAST_SIDE_PX * depths.far_m / (lens.focal_px() * marker.size_m)
+    needed = _SEARCHED_SIDE_PX * depths.far_m / (lens.focal_px() * marker.size_m)
     allowed = largest_zoom(lens, marker, depths.near_m)
     return lens.zoom.nearest(100 * max(min(needed, allowed), 1.0))
 

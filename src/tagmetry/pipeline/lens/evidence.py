@@ -10,9 +10,10 @@ import numpy as np
 from tagmetry.lens import LensSetting, Measured, ZoomLens
 
 _TELLING_ZOOM = 1.15
+_PROVEN, _REFUTED = 0.25, 0.6  # how much of the growing may be missing
 _MORE = 1.33
 _AROUND = 2.0  # of a marker's side, the room that it needs
-_BLURRED_PX = 3.5  # standard deviation beyond what the setting should leave
+_BLURRED_PX = 2.0  # standard deviation beyond what the setting should leave
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ def disobedience(lens: ZoomLens, before: Measured | None, now: Measured) -> Diso
     """
     if before is not None and (told := _zoom_did_not(before, now)):
         return Disobedience("zoom", told)
-    expected_px = lens.blur_of_depth_px(now.setting, now.depth_m) / 4
+    expected_px = _expected_blur_px(lens, now)
     if now.blur_px > 2 * expected_px + _BLURRED_PX:
         return Disobedience(
             "focus",
@@ -48,13 +49,24 @@ def disobedience(lens: ZoomLens, before: Measured | None, now: Measured) -> Diso
     return None
 
 
+def _expected_blur_px(lens: ZoomLens, now: Measured) -> float:
+    """Return the blur of the marker's nearest or farthest edge, whichever is larger."""
+    deep_m = now.pose.size_m / 2 * float(np.sin(now.tilt_rad))
+    ends_m = (max(now.depth_m - deep_m, now.depth_m / 2), now.depth_m + deep_m)
+    return max(lens.blur_of_depth_px(now.setting, depth_m) for depth_m in ends_m) / 4
+
+
 def shows_zoom(before: Measured, now: Measured) -> bool | None:
-    """Say whether a marker grew with the zoom between two images; None where it hardly changed."""
+    """Say whether a marker grew with the zoom between two images; None where that is not clear.
+
+    One that was blurred looked smaller than it is, so only growing about as expected is a proof.
+    """
     ratio = now.setting.zoom_percent / before.setting.zoom_percent
     if max(ratio, 1 / ratio) < _TELLING_ZOOM:
         return None
     grew = now.detection.side_px / before.detection.side_px
-    return bool(abs(np.log(grew)) >= abs(np.log(grew / ratio)))
+    missing = abs(np.log(grew / ratio)) / abs(np.log(ratio))
+    return True if missing < _PROVEN else None if missing < _REFUTED else False
 
 
 def telling_zoom(lens: ZoomLens, now: Measured) -> LensSetting:
