@@ -12,6 +12,8 @@ from surveyed_world import surveyed_map
 
 from tagmetry import Detector
 from tagmetry.camera import BrownLens, Camera
+from tagmetry.files.lengths import parse_sizes_m
+from tagmetry.files.maps import MapDefaults, load_map
 from tagmetry.geometry import RigidTransform, UncertainTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.localize import Localizer, MarkerMap
@@ -169,3 +171,55 @@ def test_a_map_of_a_sheet_is_flat_and_all_its_pictures_are_located_in_it():
     assert len(poses) == 15
     assert off_mm < 2.0
     assert rms_px < 3.0  # nothing is known of the lens's distortion
+
+
+def images(path, every, count):
+    """Give some grey images of a video."""
+    av = pytest.importorskip("av")
+    with av.open(str(path)) as container:
+        for n, frame in enumerate(container.decode(video=0)):
+            if n >= every * count:
+                return
+            if n % every == 0:
+                yield frame.to_ndarray(format="gray")
+
+
+def charuco_camera(path):
+    """Return the camera of a video of a ChArUco board with 12x8 squares, by OpenCV."""
+    family = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_5X5_1000)
+    board = cv2.aruco.CharucoBoard((12, 8), 0.03, 0.022, family)
+    detector, points, pixels = cv2.aruco.CharucoDetector(board), [], []
+    for image in images(path, 12, 13):
+        corners, ids, _, _ = detector.detectBoard(image)
+        if ids is not None and len(ids) > 20:
+            matched = board.matchImagePoints(corners, ids)
+            points.append(matched[0])
+            pixels.append(matched[1])
+    _, K, lens, _, _ = cv2.calibrateCamera(points, pixels, (1920, 1080), None, None)
+    return Camera.from_matrix(1920, 1080, K, BrownLens(tuple(lens.ravel()[:5])))
+
+
+@pytest.mark.slow
+def test_two_tags_of_a_field_place_the_camera_alike():
+    """The map is the nominal one: along y it is some centimetres off, the same in all images."""
+    pytest.importorskip("av")
+    pictures = folder("field_video")
+    camera = charuco_camera(pictures / "testcalibration.mp4")
+    sizes = MapDefaults("tag36h11", parse_sizes_m("165.1mm"))
+    field = load_map(pictures / "2024-crescendo.json", sizes)
+    detector = Detector(["tag36h11"])
+    video = pictures / "fieldvideo/long.mp4"
+    views = [detector.detect(one, camera) for one in images(video, 16, 10)]
+    assert all({d.id for d in seen} == {3, 4} for seen in views)
+    ways = [
+        way(np.arange(10.0), [[d for d in seen if d.id == k] for seen in views], field, camera)[0]
+        for k in (3, 4)
+    ]
+    apart_mm = 1000 * np.abs(ways[0].positions_m - ways[1].positions_m)
+    found = compare(*ways)
+    shift, turn = told("field, by tag 3 against tag 4", found)
+    print(f"x, y, z apart {apart_mm.mean(axis=0).round(1)} mm")
+    assert shift.rms < 60
+    assert turn.largest < 2.0
+    assert apart_mm[:, [0, 2]].max() < 15
+    assert Spread.of(1000 * found.relative_m).rms < 10
