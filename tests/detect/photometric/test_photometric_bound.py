@@ -58,7 +58,7 @@ def test_the_picture_changes_as_the_twins_does(motion_px: tuple[float, float]) -
     columns, rows = window.size_px
     left, top = np.rint(corners_px - _corners_of(window))[0].astype(int)
     shown = np.s_[top : top + rows, left : left + columns]
-    white = light.whiteness(window, seen).reshape(rows, columns)
+    white = light.whiteness(light.sharp_samples(window, seen), seen).reshape(rows, columns)
     np.testing.assert_allclose(white, here[shown], atol=0.03)
     change = by_edges(window, seen)[0][:, ::2].sum(axis=1).reshape(rows, columns)
     np.testing.assert_allclose(change, (ahead - behind)[shown] / 0.1, atol=0.02)

@@ -194,3 +194,25 @@ def test_pictures_that_cannot_be() -> None:
 def test_a_marker_that_does_not_fit() -> None:
     with pytest.raises(InputError, match=r"all of a marker of 120 mm at 0\.05 m"):
         predict(replace(SETUP, distance_m=0.05))
+
+
+@pytest.mark.parametrize(
+    ("changed", "why"),
+    [
+        ({"distance_m": 100.0}, r"120 mm at 100 m has 1.* px in the image, too few"),
+        ({"size_m": 1e-9}, "too few to tell anything"),
+        ({"speed_m_s": 100.0}, r"moves 408 px while the shutter is open, farther than its side"),
+    ],
+)
+def test_a_marker_that_is_hardly_seen(changed: dict[str, float], why: str) -> None:
+    with pytest.raises(InputError, match=why):
+        predict(replace(SETUP, **changed))
+
+
+@pytest.mark.parametrize(
+    "imaging", [Imaging(0.0, blur_px=0.0), Imaging(blur_px=30.0), Imaging(1e6), Imaging(2, 99, 100)]
+)
+def test_pictures_however_bad_have_a_prediction(imaging: Imaging) -> None:
+    one = predict(replace(SETUP, imaging=imaging))
+    assert np.isfinite(one.covariance).all()
+    assert 0 <= one.flip_probability <= 0.5

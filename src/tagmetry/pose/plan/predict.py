@@ -18,6 +18,8 @@ from tagmetry.geometry import Array, cross_matrix
 from tagmetry.pose.plan.flips import flip_probability
 from tagmetry.pose.plan.setup import Setup
 
+_LEAST_SIDE_PX = 2.0
+
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
@@ -65,13 +67,9 @@ def predict(setup: Setup) -> Prediction:
     """Return how exact the pose of a marker will be.
 
     Raises:
-        InputError: The image does not show all of the marker.
+        InputError: The image does not show all of the marker, or hardly shows it.
     """
-    if not setup.fits:
-        raise InputError(
-            f"the image does not show all of a marker of {1000 * setup.size_m:g} mm at "
-            f"{setup.distance_m:g} m; move it away or to the middle, or take a smaller one"
-        )
+    _check_seen(setup)
     corners_cov_px2 = detector_covariance_px2(
         setup.corners_px, setup.printed, setup.imaging.all_noise_grey
     )
@@ -88,6 +86,23 @@ def predict(setup: Setup) -> Prediction:
         _by_size(setup),
         flip_probability(setup, corners_cov_px2),
     )
+
+
+def _check_seen(setup: Setup) -> None:
+    side_px, motion_px = setup.short_side_px, float(np.hypot(*setup.motion_px))
+    name = f"a marker of {1000 * setup.size_m:g} mm at {setup.distance_m:g} m"
+    if not setup.fits:
+        raise InputError(
+            f"the image does not show all of {name}; move it away or to the middle, or take a "
+            "smaller one"
+        )
+    if side_px < _LEAST_SIDE_PX:
+        raise InputError(f"{name} has {side_px:.2g} px in the image, too few to tell anything")
+    if motion_px > side_px:
+        raise InputError(
+            f"{name} moves {motion_px:.3g} px while the shutter is open, farther than its side; "
+            "expose for a shorter time"
+        )
 
 
 def position_m(covariance: Array) -> float:

@@ -32,7 +32,7 @@ class Volume:
     flip_probability: Array
 
 
-def over_volume(setup: Setup, columns: int = 11, rows: int = 10) -> Volume:
+def over_volume(setup: Setup, columns: int = 9, rows: int = 9) -> Volume:
     """Return how exact the position of a marker is all over the image, near and far.
 
     Args:

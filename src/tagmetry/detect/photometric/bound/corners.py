@@ -33,7 +33,7 @@ def corner_bound_px2(corners_px: Array, seen: Print, noise: float) -> Array:
     """
     window = Window.around(corners_px, seen)
     by_corners, by_blur = by_edges(window, seen)
-    white = light.whiteness(window, seen)
+    white = light.whiteness(light.sharp_samples(window, seen), seen)
     slope = light.by_whiteness(white, seen)[:, None]
     columns = [slope * by_corners, slope * (by_blur @ _ISOTROPIC)[:, None]]
     columns.append(light.by_levels(white, seen))

@@ -21,7 +21,7 @@ from tagmetry.geometry import Array
 
 _LOST_BY_MOTION = 0.03  # share of the variance, by the motion's square, px
 _LEFT_BY_MOTION = 3e-4  # px, by the motion's square
-_LARGE_PX = 100.0  # from here on a marker's derivatives are those of a smaller one
+_LARGE_PX = 80.0  # from here on a marker's derivatives are those of a smaller one
 
 
 def detector_covariance_px2(corners_px: Array, seen: Print, noise: float) -> Array:
@@ -36,7 +36,8 @@ def detector_covariance_px2(corners_px: Array, seen: Print, noise: float) -> Arr
     shrunk_px, times = _at_most(corners_px, _LARGE_PX)
     window = Window.around(shrunk_px, seen)
     by_corners, by_blur = by_edges(window, seen)
-    white = light.whiteness(window, seen)
+    sharp = light.sharp_samples(window, seen)
+    white = light.whiteness(sharp, seen)
     slope = light.by_whiteness(white, seen)[:, None]
     columns = (
         slope * by_corners,
@@ -45,7 +46,7 @@ def detector_covariance_px2(corners_px: Array, seen: Print, noise: float) -> Arr
         light.by_exponent(white, seen)[:, None],
         light.by_slopes(white, seen, window),
     )
-    weights = _shares_used(window, seen, edges_px) / light.variances(white, seen, noise)
+    weights = _shares_used(sharp, edges_px) / light.variances(white, seen, noise)
     known = first_covariances(np.concatenate(columns, axis=1) * np.sqrt(weights)[:, None])
     return _smeared(known / times, seen)
 
@@ -67,15 +68,13 @@ def _at_most(corners_px: Array, side_px: float) -> tuple[Array, float]:
     return middle + (corners_px - middle) / times, times
 
 
-def _shares_used(window: Window, seen: Print, edges_px: float) -> Array:
+def _shares_used(sharp: Array, edges_px: float) -> Array:
     """Return the share of pixels of each kind that the detector looks at, 0 to 1, shape (p,).
 
     Args:
-        window: The pixels.
-        seen: The marker.
+        sharp: Samples within the pixels.
         edges_px: How long all edges of the picture truly are.
     """
-    sharp = light.sharp_samples(window, seen)
     reach = int(BESIDE_PX * light.FINER)
     y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1]
     disc = np.hypot(x, y) <= BESIDE_PX * light.FINER

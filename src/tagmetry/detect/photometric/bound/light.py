@@ -9,10 +9,10 @@ from tagmetry.geometry import Array, apply_homography
 FINER = 4  # samples per pixel
 
 
-def whiteness(window: Window, seen: Print) -> Array:
-    """Return how white each pixel is, 0 to 1, shape (p,), from samples within pixels."""
-    columns, rows = window.size_px
-    blurred = gaussian_filter(sharp_samples(window, seen), seen.blur_px * FINER, mode="nearest")
+def whiteness(sharp: Array, seen: Print) -> Array:
+    """Return how white each pixel is, 0 to 1, shape (p,), from `sharp_samples`."""
+    rows, columns = (size // FINER for size in sharp.shape)
+    blurred = gaussian_filter(sharp, seen.blur_px * FINER, mode="nearest")
     return np.asarray(blurred.reshape(rows, FINER, columns, FINER).mean(axis=(1, 3)).ravel())
 
 
