@@ -118,10 +118,9 @@ class Host:
         if BODIES[KINDS[type(message)]].sender != "host":
             raise InputError(f"{type(message).__name__} is a message of robots, the host has none")
         self.pulse()
-        with self._lock:
-            if isinstance(message, Command) and self.is_stopped:
-                return False
-            return self._send(peer, message)
+        if isinstance(message, Command) and self.is_stopped:
+            return False
+        return self._send(peer, message)
 
     def pulse(self) -> None:
         """Say that the program is alive, where it has nothing to send."""
@@ -131,13 +130,13 @@ class Host:
         """Stop all robots now, and keep them stopped: the emergency stop latches."""
         with self._lock:
             self._emergency.stop()
-            self._beat()
+        self._beat()
 
     def release(self) -> None:
         """Let robots move again; also those that an earlier host had stopped."""
         with self._lock:
             self._emergency.release()
-            self._beat()
+        self._beat()
 
     def take(self) -> list[Received]:
         """Return what was received since the last call, the newest 10,000 messages."""
@@ -167,8 +166,8 @@ class Host:
                     time.sleep(_GATHER_S)
                 if now_us() >= next_us:
                     next_us = now_us() + BEAT_US // 2
+                    self._beat()
                     with self._lock:
-                        self._beat()
                         self._emergency.count_down()
 
     def _hear_some(self) -> int:
@@ -180,19 +179,19 @@ class Host:
                 return count
             except OSError:  # what some systems say of a robot that went away
                 continue
-            with self._lock:
-                self._hear(packet, address)
+            self._hear(packet, address)
         return _MOST_AT_ONCE
 
     def _hear(self, packet: bytes, address: Address) -> None:
-        heard = self._hearing.hear(packet, address, now_us())
-        if heard is None:
-            return
-        peer, received = heard
+        with self._lock:
+            heard = self._hearing.hear(packet, address, now_us())
+            if heard is None:
+                return
+            peer, received = heard
+            if not isinstance(received.message, (Hello, Time)):  # those are the link's own
+                self._received.append(received)
+            reply = self._hearing.reply(received)
         self._tell(peer, KINDS[type(received.message)], packet, is_incoming=True)
-        if not isinstance(received.message, (Hello, Time)):  # those are the link's own
-            self._received.append(received)
-        reply = self._hearing.reply(received)
         if reply is not None:
             kind, answer = reply
             self._write(peer, kind, answer, address)
@@ -209,11 +208,14 @@ class Host:
                 self._send(peer, Beat())
 
     def _send(self, peer: Peer, message: Message) -> bool:
-        if not peer.has_session or peer.address is None:
-            return False
-        return self._write(peer, KINDS[type(message)], peer.seal(message, now_us()), peer.address)
+        with self._lock:
+            if not peer.has_session or peer.address is None:
+                return False
+            packet, address = peer.seal(message, now_us()), peer.address
+        return self._write(peer, KINDS[type(message)], packet, address)
 
     def _write(self, peer: Peer, kind: Kind, packet: bytes, address: Address) -> bool:
+        """Send without the lock: both threads get their turn while the system is asked."""
         try:
             self._socket.sendto(packet, address)
         except OSError:  # no way to it, or no room in the buffer: as if lost in the air
@@ -223,7 +225,8 @@ class Host:
 
     def _tell(self, peer: Peer, kind: Kind, packet: bytes, *, is_incoming: bool) -> None:
         if self._on_packet is not None:
-            self._on_packet(Packet(now_us() / 1e6, peer.robot_id, kind, is_incoming, packet))
+            with self._lock:
+                self._on_packet(Packet(now_us() / 1e6, peer.robot_id, kind, is_incoming, packet))
 
 
 def _peer(robot_id: int, key: bytes) -> Peer:
