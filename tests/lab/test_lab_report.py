@@ -72,9 +72,7 @@ def test_checks_in_lines() -> None:
 
 
 def test_an_unknown_experiment_is_refused_with_those_there_are() -> None:
-    with pytest.raises(
-        InputError, match=r"there is no experiment 'seed9'; there are seed00"
-    ):
+    with pytest.raises(InputError, match=r"there is no experiment 'seed9'; there are seed00"):
         experiment("seed9")
 
 
