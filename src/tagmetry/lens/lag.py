@@ -1,8 +1,8 @@
 """How late a camera's controls are: which setting was in effect when an image was taken.
 
 An image that was taken before a command took effect is stale, and so is one that was taken while
-the focus motor moved. How many images that takes is a property of the camera; `pipeline` measures
-it in the images themselves.
+the focus motor moved. How many images that takes is a property of the camera, kept with its lens;
+the images themselves contradict one that is too short (`pipeline.lens.evidence`).
 """
 
 from dataclasses import dataclass, replace

@@ -4,6 +4,8 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 
+import numpy as np
+
 from tagmetry.camera import ControlledSource, Image, VerifiedControls
 from tagmetry.camera.controls import RULED_BY, ControlRefusedError, Controls, control_named
 from tagmetry.errors import InputError
@@ -52,7 +54,9 @@ class Drive:
         now = LensSetting(self._controls.read("zoom"), self._controls.read("focus"))
         self._effect = Effect.settled(lag or Lag(), now)
         self._last_sequence = -1
-        self._held_back = 0
+        focus = self._controls.available["focus"]
+        whole_way = int(np.ceil((focus.most - focus.least) / self.lag.focus_per_image))
+        self._held_back = self.lag.images + whole_way  # nobody knows where the motor came from
         self.zoom_is_proven = False  # whether a marker has been seen to grow with the zoom
 
     @property
@@ -94,7 +98,7 @@ class Drive:
             return
         with suppress(ControlRefusedError):
             self._controls.write("exposure", exposure_s)
-            self._held_back = self.lag.images + 1
+            self._held_back = max(self._held_back, self.lag.images + 1)
 
     def take(self) -> Taken:
         """Return the next image.

@@ -51,12 +51,14 @@ def _solved(device: Device, focus: float, rng: np.random.Generator) -> Camera:
     """Return the camera solved from views at a focus value."""
     true = image_camera(device, Setting(focus=focus))
     depth_m = float(np.clip(device.focus_law.distance_m(focus), 0.05, 0.6))
-    views = [_view(true, depth_m, number, rng) for number in range(_VIEWS)]
+    views = [simulated_view(true, depth_m, number, rng) for number in range(_VIEWS)]
     camera = calibrate(views, "brown5").camera
     return replace(camera, focus=focus, zoom=1.0, name=device.name)
 
 
-def _view(true: Camera, depth_m: float, number: int, rng: np.random.Generator) -> BoardView:
+def simulated_view(
+    true: Camera, depth_m: float, number: int, rng: np.random.Generator
+) -> BoardView:
     """Return a chessboard that fills most of the image, tilted to another side each time."""
     columns, rows = _GRID
     square_m = 0.75 * depth_m * true.width_px / true.focal_px[0] / columns
