@@ -68,7 +68,7 @@ def test_an_arena_is_what_its_file_says(tmp_path: Path) -> None:
         MarkerKey("tag36h11", 101),
     )
     assert found.measured_floor is None
-    assert found.families == ("tag36h11", "tag25h9")
+    assert [one.name for one in found.families] == ["tag36h11", "tag25h9"]
     assert (found.camera_file, found.world_file) == (
         tmp_path / "ceiling.yaml",
         tmp_path / "lab.world.yaml",
@@ -130,6 +130,9 @@ def test_a_board_may_lie_on_the_floor(tmp_path: Path) -> None:
         ("{id: 5,", "{family: tag36h11, id: 1,", "family"),
         ("id: 5, height_m: 0.1, size_m: 0.06, family: tag25h9", "id: 1, height_m: 0.1", "marker"),
         ("marker: {id: 1,", "marker: {id: 100,", "id 100 is a floor marker and ada's"),
+        ("{id: 5, height", "{id: 35, height", "robot 2: family tag25h9 has ids 0 to 34"),
+        ("- {id: 100}", "- {id: 1000}", "floor marker 1000: family tag36h11 has ids 0 to 586"),
+        ("family: tag25h9", "family: tag99", "robot 2: .*tag99"),
         ("marker_size_m: 0.08", "", "robot 1: the size of its marker is missing"),
         ("\ndiameter_m: 0.16", "", "robot 1: its diameter is missing"),
         ("height_m: 0.093, ", "", "height_m is missing"),

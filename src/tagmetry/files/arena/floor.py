@@ -7,6 +7,7 @@ import numpy as np
 from tagmetry.errors import InputError
 from tagmetry.files.arena.tables import ArenaTable, FloorMarkerTable, FloorTable
 from tagmetry.files.board_text import parse_board
+from tagmetry.files.families import resolve_family
 from tagmetry.files.plain import shortened
 from tagmetry.files.text import named_errors
 from tagmetry.geometry import RigidTransform
@@ -72,7 +73,8 @@ def _floor_marker(one: FloorMarkerTable, table: ArenaTable) -> FloorMarker:
         size_m = one.size_m if one.size_m is not None else table.floor.size_m
         if size_m is None or not 0 < size_m < np.inf:
             raise InputError(f"expected its size_m, here or for all, positive, found {size_m}")
-        key = MarkerKey(one.family or table.family, one.id)
+        family = resolve_family(one.family or table.family)
+        key = MarkerKey(family.name, family.checked_id(one.id))
         if (one.x_m is None) != (one.y_m is None):
             raise InputError("expected both x_m and y_m, or none of them")
         if one.x_m is None or one.y_m is None:

@@ -7,6 +7,7 @@ import numpy as np
 from tagmetry.arena import Mount, Robot
 from tagmetry.errors import InputError
 from tagmetry.files.arena.tables import ArenaTable, RobotTable
+from tagmetry.files.families import resolve_family
 from tagmetry.files.text import named_errors
 
 _KEY = re.compile(r"[0-9a-fA-F]{64}")
@@ -28,9 +29,18 @@ def robot_of(one: RobotTable, table: ArenaTable) -> Robot:
             float(np.radians(one.marker.turn_deg)),
             one.marker.height_sd_m,
         )
-        family = one.marker.family or table.family
+        family = resolve_family(one.marker.family or table.family)
         name = one.name if one.name is not None else f"robot {one.id}"
-        return Robot(one.id, name, diameter_m, family, one.marker.id, size_m, mount, _key(one.key))
+        return Robot(
+            one.id,
+            name,
+            diameter_m,
+            family.name,
+            family.checked_id(one.marker.id),
+            size_m,
+            mount,
+            _key(one.key),
+        )
 
 
 def _key(text: str | None) -> bytes | None:

@@ -19,9 +19,11 @@ from tagmetry.files.arena.robots import robot_of
 from tagmetry.files.arena.senses import obstacle_of, point_of, sensor_of
 from tagmetry.files.arena.tables import ArenaTable
 from tagmetry.files.checked import checked
+from tagmetry.files.families import resolve_family
 from tagmetry.files.tables import load_yaml
 from tagmetry.files.text import named_errors
 from tagmetry.localize import MapMarker, MarkerMap
+from tagmetry.markers import MarkerFamily
 from tagmetry.markers.bodies import MarkerKey
 
 _VERSION = 1
@@ -45,6 +47,7 @@ class ArenaSetup:
         safety: When robots are stopped.
         motion: How robots move.
         seed: Of the sensors' random numbers.
+        families: Those that a detector has to look for, each once.
     """
 
     name: str
@@ -60,12 +63,7 @@ class ArenaSetup:
     safety: SafetyRules = field(default_factory=SafetyRules)
     motion: Motion = field(default_factory=Motion)
     seed: int = 0
-
-    @property
-    def families(self) -> tuple[str, ...]:
-        """The families that a detector has to look for, each once."""
-        names = [one.family for one in self.roster.robots] + [one.key.family for one in self.floor]
-        return tuple(dict.fromkeys(names))
+    families: tuple[MarkerFamily, ...] = ()
 
     @property
     def measured_floor(self) -> MarkerMap | None:
@@ -148,7 +146,17 @@ def _setup(table: ArenaTable, path: Path) -> ArenaSetup:
         SafetyRules(table.safety.unseen_s, fence, table.safety.margin_m),
         Motion(**table.motion.model_dump()),
         table.seed,
+        _families(table, floor),
     )
+
+
+def _families(table: ArenaTable, floor: tuple[FloorMarker, ...]) -> tuple[MarkerFamily, ...]:
+    """Return all families there are; those of a board have names, others may be files."""
+    names = [one.marker.family or table.family for one in table.robots]
+    names += [one.family or table.family for one in table.floor.markers]
+    names += [one.key.family for one in floor] if table.floor.board is not None else []
+    found = [resolve_family(name) for name in dict.fromkeys(names)]
+    return tuple({one.name: one for one in found}.values())
 
 
 def _check_apart(roster: Roster, floor: tuple[FloorMarker, ...]) -> None:

@@ -9,7 +9,6 @@ from tagmetry.camera import Camera, Image
 from tagmetry.detect import Detection, Detector
 from tagmetry.errors import InputError
 from tagmetry.files.arena import ArenaSetup, ArenaWorld
-from tagmetry.files.families import resolve_family
 from tagmetry.files.text import named_errors
 from tagmetry.markers.bodies import MarkerKey
 
@@ -28,7 +27,8 @@ def calibrate_arena(
     Raises:
         InputError: A floor marker is not seen, or the floor markers do not tell the camera's place.
     """
-    seen = averaged([_detected(image, setup, camera) for image in islice(images, most)])
+    detector = Detector(setup.families)
+    seen = averaged([_detected(image, detector, camera) for image in islice(images, most)])
     return world_of(seen, setup, camera)
 
 
@@ -48,10 +48,9 @@ def world_of(detections: Sequence[Detection], setup: ArenaSetup, camera: Camera)
     return ArenaWorld(laid.view, laid.floor, floor_corners(of_floor, laid.floor))
 
 
-def _detected(image: Image, setup: ArenaSetup, camera: Camera) -> tuple[Detection, ...]:
+def _detected(image: Image, detector: Detector, camera: Camera) -> tuple[Detection, ...]:
     with named_errors(image.source or "image"):
         camera.check_image(image.width_px, image.height_px)
-        detector = Detector([resolve_family(name) for name in setup.families])
         return detector.detect(image.pixels, camera)
 
 

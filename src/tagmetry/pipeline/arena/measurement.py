@@ -11,7 +11,6 @@ from tagmetry.camera import Camera, Image
 from tagmetry.detect import Detection, Detector, Tracker
 from tagmetry.errors import InputError
 from tagmetry.files.arena import ArenaSetup, ArenaWorld
-from tagmetry.files.families import resolve_family
 from tagmetry.files.text import named_errors
 from tagmetry.pipeline.arena.drivers import Drivers
 from tagmetry.pipeline.arena.guarded import Guarded
@@ -106,7 +105,7 @@ class ArenaMeasurement:
         """
         _check_below_camera(setup, world)
         arena = Arena(setup.roster, world.view, world.floor, world.reference, setup.motion)
-        detector = Detector([resolve_family(name) for name in setup.families])
+        detector = Detector(setup.families)
         driven = setup.roster.robots if controllers is not None else ()
         drivers = Drivers({one.id: Guarded(controllers(one.id)) for one in driven if controllers})
         return cls(
