@@ -2,12 +2,9 @@
 
 from collections.abc import Mapping
 
-from tagmetry.arena import Told, WorldState
-from tagmetry.link import Command, Host, Neighbour, Neighbours, Pose
+from tagmetry.link import Command, Host
 from tagmetry.pipeline.arena.measurement import ArenaResult, image_time_s
-
-_US = 1_000_000
-_COMMAND_MS = 200
+from tagmetry.pipeline.arena.messages import command_message, neighbours_message, pose_message
 
 
 class LinkTaker:
@@ -49,10 +46,12 @@ class LinkTaker:
         self._sent_s = result.done_s
         self._drive(result)
         for told in result.told:
-            self._host.send(told.robot_id, self._neighbours(told, round(result.taken_s * _US)))
+            range_m = self._ranges_m.get(told.robot_id, self._range_m)
+            self._host.send(told.robot_id, neighbours_message(told, range_m, result.taken_s))
         if self._poses:
-            ahead_s = result.world.time_s - image_time_s(result.image)
-            self._send_poses(result.world, round((result.taken_s + ahead_s) * _US))
+            acts_s = result.taken_s + result.world.time_s - image_time_s(result.image)
+            for state in result.world:
+                self._host.send(state.id, pose_message(state, acts_s))
 
     def close(self) -> None:
         """The host falls silent by itself, and robots stop."""
@@ -60,8 +59,7 @@ class LinkTaker:
     def _drive(self, result: ArenaResult) -> None:
         """Send commands, to stand still where a robot must not drive."""
         for robot_id, twist in result.commands.items():
-            command = Command(twist.speed_mps, 0.0, twist.turn_rate_radps, _COMMAND_MS)
-            self._host.send(robot_id, command)
+            self._host.send(robot_id, command_message(twist))
         for one in result.decisions:
             if one.must_stop:
                 self._host.send(one.robot_id, Command(valid_for_ms=0))
@@ -72,28 +70,3 @@ class LinkTaker:
         if self._is_stopped and not result.stop.is_pressed:
             self._host.release()
         self._is_stopped = result.stop.is_pressed
-
-    def _neighbours(self, told: Told, captured_us: int) -> Neighbours:
-        seen = tuple(
-            Neighbour(
-                near.id, near.range_m, near.bearing_rad, near.relative_heading_rad, near.age_s
-            )
-            for near in told.neighbours
-        )
-        range_m = self._ranges_m.get(told.robot_id, self._range_m)
-        return Neighbours(captured_us, range_m, seen)
-
-    def _send_poses(self, world: WorldState, captured_us: int) -> None:
-        for state in world:
-            sd = (state.covariance[[0, 1, 2], [0, 1, 2]].clip(0.0) ** 0.5).tolist()
-            pose = Pose(
-                captured_us,
-                state.x_m,
-                state.y_m,
-                state.heading_rad,
-                state.speed_mps,
-                state.turn_rate_radps,
-                max(sd[0], sd[1]),
-                sd[2],
-            )
-            self._host.send(state.id, pose)

@@ -16,6 +16,7 @@ from tagmetry.arena.neighbours import Neighbour
 from tagmetry.arena.place import Place
 from tagmetry.link import Odometry, Telemetry
 from tagmetry.link.client.robot import Robot as LinkedRobot
+from tagmetry.pipeline.arena.messages import microseconds
 from tagmetry.pipeline.arena_twin.scenario import TwinRobot
 
 _ODOMETRY_S = 0.02
@@ -45,7 +46,7 @@ class OnBoard:
 
     def hear(self, packet: bytes, now_s: float) -> None:
         """Take a packet that has arrived."""
-        self._link.receive(packet, _us(now_s))
+        self._link.receive(packet, microseconds(now_s))
 
     def step(self, counts: NDArray[np.int64], now_s: float) -> Iterator[bytes]:
         """Read the encoders, decide how to move, and yield the packets to send.
@@ -54,7 +55,7 @@ class OnBoard:
             counts: Of the left and the right wheel's encoder, shape (2,).
             now_s: In the robot's own clock.
         """
-        due = self._link.due(_us(now_s))
+        due = self._link.due(microseconds(now_s))
         if due is not None:
             yield due
         if now_s - self._read_s >= _ODOMETRY_S - 1e-9:
@@ -63,10 +64,11 @@ class OnBoard:
         self.wish = self._wish(now_s)
 
     def _wish(self, now_s: float) -> Twist:
-        if self._controller is None:
-            command = self._link.command(_us(now_s))
-            return Twist(command.forward_mps, command.turn_radps)
-        return self._controller(self._view(now_s)) if self._link.may_move(_us(now_s)) else STILL
+        now_us = microseconds(now_s)
+        if self._controller is not None:
+            return self._controller(self._view(now_s)) if self._link.may_move(now_us) else STILL
+        command = self._link.command(now_us)
+        return Twist(command.forward_mps, command.turn_radps)
 
     def _view(self, now_s: float) -> View:
         """Return what its packets tell.
@@ -74,7 +76,7 @@ class OnBoard:
         The link's own host time is never early, for safety; half of the round trip less is even.
         """
         told = self._link.neighbours
-        even_us = self._link.host_us(_us(now_s)) - self._link.round_trip_us / 2
+        even_us = self._link.host_us(microseconds(now_s)) - self._link.round_trip_us / 2
         robot_id, time_s = self._twin.robot.id, even_us / 1e6
         if told is None:
             return View(robot_id, time_s, self._twist)
@@ -99,21 +101,17 @@ class OnBoard:
     def _report(self, now_s: float) -> Iterator[bytes]:
         if not self._link.is_linked():
             return
-        at_us = self._link.host_us(_us(now_s))
+        at_us = self._link.host_us(microseconds(now_s))
         place, twist = self._place, self._twist
         odometry = Odometry(
             at_us, place.x_m, place.y_m, place.heading_rad, twist.speed_mps, 0.0,
             twist.turn_rate_radps,
         )  # fmt: skip
-        packets = [self._link.seal(odometry, _us(now_s))]
+        packets = [self._link.seal(odometry, microseconds(now_s))]
         if now_s - self._told_s >= _TELEMETRY_S:
             self._told_s = now_s
             battery_v = _FULL_V - _EMPTY_V_PER_S * now_s
             packets.append(
-                self._link.seal(Telemetry(at_us, (("battery_v", battery_v),)), _us(now_s))
+                self._link.seal(Telemetry(at_us, (("battery_v", battery_v),)), microseconds(now_s))
             )
         yield from (packet for packet in packets if packet is not None)
-
-
-def _us(time_s: float) -> int:
-    return round(1e6 * time_s)

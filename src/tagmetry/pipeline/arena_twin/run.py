@@ -11,13 +11,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.arena import Arena, Neighbourhood, Roster, StopForAll, Told
+from tagmetry.arena import Arena, Neighbourhood, Roster, StopForAll
 from tagmetry.arena.drive import Twist
 from tagmetry.arena.place import Place
 from tagmetry.detect import Detection
-from tagmetry.link import Command, Neighbour, Neighbours, Odometry, Pose, RobotLink, Telemetry
+from tagmetry.link import Odometry, RobotLink, Telemetry
 from tagmetry.pipeline.arena.drivers import Drivers
 from tagmetry.pipeline.arena.guarded import Guarded
+from tagmetry.pipeline.arena.messages import (
+    command_message,
+    microseconds,
+    neighbours_message,
+    pose_message,
+)
 from tagmetry.pipeline.arena.turning import Turn, Turning
 from tagmetry.pipeline.arena_twin.air import HOST, Air
 from tagmetry.pipeline.arena_twin.base import Base
@@ -27,7 +33,6 @@ from tagmetry.pipeline.arena_twin.scenario import Scenario
 from tagmetry.twin.robots import RobotsPhysics
 
 TICK_S = 0.008
-_COMMAND_MS = 200
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,14 +149,14 @@ class TwinArena:
         self._deliver(now_s)
         while self._images and self._images[0][0] + self.scenario.camera_delay_s <= now_s + 1e-9:
             yield self._moment(*self._images.popleft(), now_s)
-        self._base.beat(_us(now_s))
+        self._base.beat(microseconds(now_s))
         self._think(now_s)
         self._physics.step(TICK_S)
 
     def _deliver(self, now_s: float) -> None:
         for receiver, packet in self._air.arrived(now_s):
             if receiver == HOST:
-                self._base.hear(packet, _us(now_s))
+                self._base.hear(packet, microseconds(now_s))
             else:
                 self._robots[receiver].hear(packet, now_s)
         for received in self._base.take():
@@ -184,39 +189,17 @@ class TwinArena:
             dict(zip(self._ids, self._physics.twists(), strict=True)),
             dict(self._odometry),
             {one: dict(told) for one, told in self._readings.items()},
-            self._base.links(_us(now_s)),
+            self._base.links(microseconds(now_s)),
             frozenset((self._ids[a], self._ids[b]) for a, b in self._physics.touching()),
         )
 
     def _send(self, turn: Turn, now_s: float) -> None:
         """Tell the robots: how to move, where they are, whom they sense."""
+        now_us, reach_m = microseconds(now_s), self.scenario.sensor.range_m
         for robot_id, twist in turn.commands.items():
-            command = Command(twist.speed_mps, 0.0, twist.turn_rate_radps, _COMMAND_MS)
-            self._base.send(robot_id, command, _us(now_s))
-        reach_m = self.scenario.sensor.range_m
+            self._base.send(robot_id, command_message(twist), now_us)
+        for state in turn.world:
+            self._base.send(state.id, pose_message(state, state.time_s), now_us)
         for told in turn.told:
-            self._base.send(told.robot_id, _pose(turn, told.robot_id), _us(now_s))
-            self._base.send(told.robot_id, _neighbours(told, reach_m), _us(now_s))
-
-
-def _pose(turn: Turn, robot_id: int) -> Pose:
-    state = turn.world.robot(robot_id)
-    if state is None:
-        raise RuntimeError(f"robot {robot_id} is told of neighbours, but has no track")
-    sd = np.sqrt(np.diag(state.covariance)).tolist()
-    return Pose(
-        _us(state.time_s), state.x_m, state.y_m, state.heading_rad, state.speed_mps,
-        state.turn_rate_radps, max(sd[:2]), sd[2],
-    )  # fmt: skip
-
-
-def _neighbours(told: Told, reach_m: float) -> Neighbours:
-    seen = tuple(
-        Neighbour(one.id, one.range_m, one.bearing_rad, one.relative_heading_rad, one.age_s)
-        for one in told.neighbours
-    )
-    return Neighbours(_us(told.time_s), reach_m, seen)
-
-
-def _us(time_s: float) -> int:
-    return round(1e6 * time_s)
+            message = neighbours_message(told, reach_m, told.time_s)
+            self._base.send(told.robot_id, message, now_us)
