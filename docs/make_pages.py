@@ -13,6 +13,7 @@ from typer.core import TyperArgument, TyperCommand, TyperGroup, TyperOption
 import tagmetry.cli.main
 from tagmetry.link.layout import Layout
 from tagmetry.link.wire import BODIES, HEADER
+from tagmetry.live.messages import CONTRACT, Rule
 from tagmetry.markers import family, family_names
 
 DOCS = Path(__file__).parent
@@ -138,10 +139,24 @@ def rows_of_layout(layout: Layout) -> str:
     return "\n".join(rows) + "\n"
 
 
+def live_messages() -> str:
+    """Return what the live page's server and its pages say to each other."""
+    rows = ["| message | from | role | fields | |", "|---|---|---|---|---|"]
+    return "\n".join([*rows, *map(message_row, CONTRACT)]) + "\n"
+
+
+def message_row(rule: Rule) -> str:
+    """Return the line of one message: the fields' meanings stand in its class."""
+    names = ", ".join(f"`{name}`" for name in rule.message.__dataclass_fields__)
+    about = (rule.message.__doc__ or "").splitlines()[0]
+    return f"| `{rule.name}` | {rule.sender} | {rule.role} | {names} | {about} |"
+
+
 PAGES: dict[str, Callable[[], str]] = {
     "README.md": readme,
     "docs/cli.md": command_line,
     "docs/generated/forgiven.md": forgiven_bits,
+    "docs/generated/live.md": live_messages,
     "docs/generated/wire.md": wire_tables,
 }
 

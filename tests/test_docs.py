@@ -35,7 +35,7 @@ def test_reference_describes_exactly_the_public_names() -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["README.md", "docs/cli.md", "docs/generated/forgiven.md", "docs/generated/wire.md"],
+    ["README.md", "docs/cli.md", *(f"docs/generated/{n}.md" for n in ("forgiven", "live", "wire"))],
 )
 def test_written_pages_are_what_the_program_says(name: str) -> None:
     page = load_make_pages().PAGES[name]()

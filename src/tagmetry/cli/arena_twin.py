@@ -60,7 +60,7 @@ def twin(  # noqa: PLR0913 (each argument is an option)
             worlds.append(moment.turn.step.world)
             if recorder is not None:
                 _record(recorder, moment, eye.pixels if eye is not None else None)
-    _print(summing.summary(), time.monotonic() - started_s)
+    tell_summary(summing.summary(), time.monotonic() - started_s)
     if picture is not None:
         _draw(picture, scenario, worlds, controller)
 
@@ -120,7 +120,8 @@ def _record(recorder: "Recorder", moment: "Moment", pixels: "AnyPixels | None") 
     recorder.state(moment.turn.step.world)
 
 
-def _print(summary: "Summary", took_s: float) -> None:
+def tell_summary(summary: "Summary", took_s: float) -> None:
+    """Print what a run came to."""
     apart = "" if summary.nearest_m == float("inf") else f"; nearest {summary.nearest_m:.3f} m"
     typer.echo(
         f"{summary.duration_s:.1f} s in {took_s:.1f} s: {summary.images} images, "

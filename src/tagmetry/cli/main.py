@@ -23,6 +23,7 @@ from tagmetry.cli.info import info
 from tagmetry.cli.kernels import ensure_cache_folder
 from tagmetry.cli.lab import app as lab_app
 from tagmetry.cli.lens import app as lens_app
+from tagmetry.cli.live import live
 from tagmetry.cli.locate import locate
 from tagmetry.cli.plan import plan
 from tagmetry.cli.print import app as print_app
@@ -41,6 +42,7 @@ app.command()(calibrate)
 app.command()(locate)
 app.command()(plan)
 app.add_typer(arena_app, name="arena")
+app.command()(live)
 app.command()(compare)
 app.add_typer(print_app, name="print")
 app.add_typer(camera_app, name="camera")

@@ -1,0 +1,85 @@
+"""From moments and pictures to messages, no more often than a page can use them."""
+
+import base64
+import time
+from collections.abc import Callable
+
+import cv2
+
+from tagmetry.geometry.arrays import AnyPixels
+from tagmetry.live.eye import Look
+from tagmetry.live.messages import Health, Picture, Told
+from tagmetry.live.rates import Rate
+from tagmetry.live.recording import Recordings
+from tagmetry.live.stage import Performance
+from tagmetry.live.told import told_markers, told_world
+from tagmetry.pipeline.arena_twin import Moment
+
+_WORLD_S, _HEALTH_S = 1 / 20, 0.5
+_SCALE, _JPEG_QUALITY = 0.5, 75
+
+
+class Feed:
+    """Gives messages to whoever tells the pages.
+
+    Attributes:
+        notice: What went wrong last; empty while all is well.
+    """
+
+    def __init__(self, give: Callable[[Told], None], recordings: Recordings) -> None:
+        """Begin.
+
+        Args:
+            give: Takes every message, in the thread that made it, and returns at once.
+            recordings: What health tells about.
+        """
+        self.notice = ""
+        self._give, self._recordings = give, recordings
+        self._images, self._pictures = Rate(), Rate()
+        self._world_s = self._health_s = float("-inf")
+        self._picture_s: float | None = None
+
+    def moment(self, moment: Moment, show: Performance, why: str | None, took_s: float) -> None:
+        """Tell where the robots are, unless that was told just now.
+
+        Args:
+            moment: The newest.
+            show: What runs.
+            why: Why the stop for all is pressed; None while it is not.
+            took_s: Time that it took.
+        """
+        self._images.count(took_s)
+        if time.monotonic() - self._world_s >= _WORLD_S:
+            self._world_s = time.monotonic()
+            self._give(told_world(moment, show.arena.scenario, show.steered, why))
+
+    def picture(self, look: Look, pixels: AnyPixels, show: Performance) -> None:
+        """Tell what the camera sees."""
+        self._pictures.count()
+        self._picture_s = time.monotonic()
+        small = cv2.resize(pixels, None, fx=_SCALE, fy=_SCALE, interpolation=cv2.INTER_AREA)
+        _, jpeg = cv2.imencode(".jpg", small, [cv2.IMWRITE_JPEG_QUALITY, _JPEG_QUALITY])
+        height_px, width_px = small.shape[:2]
+        markers = told_markers(look.detections, show.roster, _SCALE)
+        encoded = base64.b64encode(jpeg.tobytes()).decode()
+        self._give(Picture(look.time_s, width_px, height_px, markers, encoded))
+
+    def health(self, show: Performance, late_s: float, viewers: int) -> None:
+        """Tell how the measurement does, unless that was told just now."""
+        now_s = time.monotonic()
+        if now_s - self._health_s < _HEALTH_S:
+            return
+        self._health_s = now_s
+        self._give(
+            Health(
+                show.name,
+                self._images.per_s,
+                late_s,
+                self._images.mean_s,
+                self._pictures.per_s,
+                None if self._picture_s is None else now_s - self._picture_s,
+                viewers,
+                self._recordings.name,
+                self.notice or self._recordings.failure,
+            )
+        )

@@ -1,0 +1,278 @@
+"""What the server and the page say to each other: the contract, and who may say what.
+
+Every message is a JSON object whose `type` is its class's name. `CONTRACT` declares each one's
+sender and the role that it needs; the page of the protocol is written from it.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+Sender = Literal["server", "page"]
+Role = Literal["viewer", "operator"]
+
+
+@dataclass(frozen=True)
+class LiveRobot:
+    """One robot.
+
+    Attributes:
+        id: Its own number.
+        name: What people call it; any text.
+        x_m: Its centre in the world.
+        y_m: Its centre in the world.
+        heading_rad: From the world's x, counter-clockwise.
+        speed_mps: Along its forward axis.
+        radius_m: Of the circle that it stays in.
+        ellipse: Of its place, one standard deviation: long and short half axis, m, and the long
+            one's direction, rad.
+        age_s: Since the last image that showed it.
+        is_seen: The newest image shows it.
+        is_stopped: It has to stand still.
+        why: The reasons, in words.
+        goal_m: (x, y) of where a person sent it; None while its controller drives.
+        odometry: (x, y, heading) as its wheels say, in its own frame; None before it told.
+        battery_v: As it told last; None before.
+        loss: Share of its packets that did not arrive.
+        round_trip_s: To the host and back; None before it was measured.
+        neighbours: Ids of the robots that it senses.
+    """
+
+    id: int
+    name: str
+    x_m: float
+    y_m: float
+    heading_rad: float
+    speed_mps: float
+    radius_m: float
+    ellipse: tuple[float, float, float]
+    age_s: float
+    is_seen: bool
+    is_stopped: bool
+    why: str
+    goal_m: tuple[float, float] | None
+    odometry: tuple[float, float, float] | None
+    battery_v: float | None
+    loss: float
+    round_trip_s: float | None
+    neighbours: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class LiveMarker:
+    """A marker in the camera's picture.
+
+    Attributes:
+        robot_id: Whose.
+        corners_px: In the picture as it is sent, clockwise from the marker's top left.
+        front_px: A point before the robot, seen from the marker's centre.
+    """
+
+    robot_id: int
+    corners_px: tuple[tuple[float, float], ...]
+    front_px: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Welcome:
+    """The first message on every connection: who you are, and what there is.
+
+    Attributes:
+        role: What this page may do.
+        scenarios: That can be chosen.
+        floor_m: Half the floor's extent along x and y.
+        beat_s: How often a page that drives says that it is there.
+    """
+
+    role: Role
+    scenarios: tuple[str, ...]
+    floor_m: tuple[float, float]
+    beat_s: float
+
+
+@dataclass(frozen=True)
+class World:
+    """Where all robots are.
+
+    Attributes:
+        time_s: In the arena's clock.
+        robots: By rising id; robots that were never seen are not among them.
+        missing: Names of the robots that were never seen.
+        is_stopped: The stop for all is pressed.
+        why: Who or what pressed it.
+    """
+
+    time_s: float
+    robots: tuple[LiveRobot, ...]
+    missing: tuple[str, ...]
+    is_stopped: bool
+    why: str
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What the camera sees.
+
+    Attributes:
+        time_s: When it was taken, in the arena's clock.
+        width_px: Of the picture as it is sent.
+        height_px: Of the picture as it is sent.
+        markers: That were found in it.
+        jpeg: The picture, base64.
+    """
+
+    time_s: float
+    width_px: int
+    height_px: int
+    markers: tuple[LiveMarker, ...]
+    jpeg: str
+
+
+@dataclass(frozen=True)
+class Health:
+    """How the measurement does.
+
+    Attributes:
+        scenario: What runs.
+        image_rate_hz: Images measured per second of the wall's clock.
+        late_s: How far the arena is behind the wall's clock.
+        turn_s: Time that one image takes, the mean of the last second.
+        picture_rate_hz: Pictures made per second.
+        picture_age_s: Since the newest picture was taken; None before.
+        viewers: Pages that are connected.
+        recording: Name of the file that is being written; None while nothing is.
+        notice: What went wrong last; empty while all is well.
+    """
+
+    scenario: str
+    image_rate_hz: float
+    late_s: float
+    turn_s: float
+    picture_rate_hz: float
+    picture_age_s: float | None
+    viewers: int
+    recording: str | None
+    notice: str
+
+
+@dataclass(frozen=True)
+class Refused:
+    """What the page asked for last was not done.
+
+    Attributes:
+        why: In words.
+    """
+
+    why: str
+
+
+@dataclass(frozen=True)
+class Beat:
+    """The page that drives is open and looked at; without it for 300 ms, all robots stop."""
+
+
+@dataclass(frozen=True)
+class Stop:
+    """Stop all robots, and keep them stopped.
+
+    Attributes:
+        why: Who or what asks for it.
+    """
+
+    why: str = "pressed on the page"
+
+
+@dataclass(frozen=True)
+class Release:
+    """Let all robots move again."""
+
+
+@dataclass(frozen=True)
+class GoTo:
+    """Send a robot to a place, where it stays until it is resumed.
+
+    Attributes:
+        robot_id: Which.
+        x_m: In the world.
+        y_m: In the world.
+    """
+
+    robot_id: int
+    x_m: float
+    y_m: float
+
+
+@dataclass(frozen=True)
+class Resume:
+    """Give a robot that was sent somewhere back to its controller.
+
+    Attributes:
+        robot_id: Which.
+    """
+
+    robot_id: int
+
+
+@dataclass(frozen=True)
+class ChooseScenario:
+    """Begin another scenario.
+
+    Attributes:
+        name: One of those that the welcome lists.
+        robots: How many.
+    """
+
+    name: str
+    robots: int
+
+
+@dataclass(frozen=True)
+class StartRecording:
+    """Record states and pictures into a new file, which the server names."""
+
+
+@dataclass(frozen=True)
+class StopRecording:
+    """End the recording."""
+
+
+Told = Welcome | World | Picture | Health | Refused
+Asked = Beat | Stop | Release | GoTo | Resume | ChooseScenario | StartRecording | StopRecording
+
+DRIVING = (Release, GoTo, Resume, ChooseScenario)  # who sends one of these drives from then on
+
+
+@dataclass(frozen=True)
+class Rule:
+    """One line of the contract.
+
+    Attributes:
+        message: Its class.
+        sender: Who sends it.
+        role: What the page needs to get it, or to be heard.
+    """
+
+    message: type[Told] | type[Asked]
+    sender: Sender
+    role: Role
+
+    @property
+    def name(self) -> str:
+        """Its `type`."""
+        return self.message.__name__
+
+
+CONTRACT = (
+    Rule(Welcome, "server", "viewer"),
+    Rule(World, "server", "viewer"),
+    Rule(Picture, "server", "viewer"),
+    Rule(Health, "server", "viewer"),
+    Rule(Refused, "server", "viewer"),
+    Rule(Beat, "page", "operator"),
+    Rule(Stop, "page", "operator"),
+    Rule(Release, "page", "operator"),
+    Rule(GoTo, "page", "operator"),
+    Rule(Resume, "page", "operator"),
+    Rule(ChooseScenario, "page", "operator"),
+    Rule(StartRecording, "page", "operator"),
+    Rule(StopRecording, "page", "operator"),
+)

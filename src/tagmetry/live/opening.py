@@ -1,0 +1,62 @@
+"""The live page as a whole: the arena's thread, the door and the server, ready to run."""
+
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import uvicorn
+
+from tagmetry.live.access import Access
+from tagmetry.live.hub import Hub
+from tagmetry.live.runner import LiveRunner
+from tagmetry.live.serving import listening, server
+
+
+@dataclass(frozen=True, eq=False)
+class LivePage:
+    """A page that can be served.
+
+    Attributes:
+        url: Where it is.
+        token: That makes an operator of a viewer; a secret.
+        runner: The arena, running.
+        server: Serves it, once it is run.
+        socket: That the server listens at.
+    """
+
+    url: str
+    token: str
+    runner: LiveRunner
+    server: uvicorn.Server
+    socket: socket.socket
+
+    def serve(self) -> None:
+        """Serve until the server is told to end, or by Ctrl-C."""
+        self.server.run(sockets=[self.socket])
+
+
+@contextmanager
+def opened_page(
+    scenario: str, robots: int, address: str, port: int, recordings: Path
+) -> Iterator[LivePage]:
+    """Give a page whose arena runs; it ends with the block.
+
+    Args:
+        scenario: Name of a ready-made one.
+        robots: How many.
+        address: To listen at: an interface of this computer.
+        port: To listen at; 0 for a free one.
+        recordings: Folder for recordings.
+
+    Raises:
+        InputError: One of them cannot be used.
+    """
+    with listening(address, port) as opened:
+        port = opened.getsockname()[1]
+        access, hub = Access(address, port), Hub()
+        with LiveRunner(scenario, robots, recordings, hub.give) as runner:
+            host = f"[{address}]" if ":" in address else address
+            url = f"http://{host}:{port}/"
+            yield LivePage(url, access.token, runner, server(access, hub, runner), opened)

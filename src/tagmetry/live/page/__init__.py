@@ -1,0 +1,32 @@
+"""The page's files, as they lie in the package; nothing else is ever served."""
+
+from dataclasses import dataclass
+from importlib.resources import files
+
+
+@dataclass(frozen=True)
+class Part:
+    """One file of the page.
+
+    Attributes:
+        content: As it is sent.
+        kind: Its media type.
+    """
+
+    content: bytes
+    kind: str
+
+
+_KINDS = {".html": "text/html", ".js": "text/javascript", ".css": "text/css"}
+_NAMES = ("app.js", "camera.js", "link.js", "map.js", "table.js", "style.css")
+
+
+def _part(name: str) -> Part:
+    kind = _KINDS[name[name.rindex(".") :]]
+    return Part(files(__name__).joinpath(name).read_bytes(), kind)
+
+
+PARTS: dict[str, Part] = {  # by path
+    "/": _part("index.html"),
+    **{f"/{name}": _part(name) for name in _NAMES},
+}

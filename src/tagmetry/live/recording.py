@@ -1,0 +1,69 @@
+"""A recording that people start and stop while the arena runs."""
+
+import threading
+from datetime import datetime
+from pathlib import Path
+
+from tagmetry.arena import WorldState
+from tagmetry.camera import Image
+from tagmetry.errors import InputError
+from tagmetry.record.mcap import Recorder
+
+
+class Recordings:
+    """Writes one file at a time into a folder.
+
+    Attributes:
+        name: Of the file that is being written; None while none is.
+        failure: Why the last one ended early; empty while all is well.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.name: str | None = None
+        self.failure = ""
+        self._folder = folder
+        self._recorder: Recorder | None = None
+        self._closing: threading.Thread | None = None
+
+    def start(self) -> None:
+        """Begin a file that is named after the clock; nothing changes while one is written.
+
+        Raises:
+            InputError: It cannot be written.
+        """
+        if self._recorder is not None:
+            return
+        self._folder.mkdir(parents=True, exist_ok=True)
+        name = f"{datetime.now().astimezone():%Y-%m-%d-%H-%M-%S-%f}.mcap"
+        self._recorder = Recorder(self._folder / name).__enter__()
+        self.name, self.failure = name, ""
+
+    def stop(self) -> None:
+        """End the file; what still waits is written in a thread of its own."""
+        recorder, self._recorder, self.name = self._recorder, None, None
+        if recorder is not None:
+            self._closing = threading.Thread(target=self._end, args=(recorder,), name="recorded")
+            self._closing.start()
+
+    def close(self) -> None:
+        """End the file and wait until it is whole."""
+        self.stop()
+        if self._closing is not None:
+            self._closing.join()
+
+    def state(self, world: WorldState) -> None:
+        """Record where all robots are, if a file is open."""
+        if self._recorder is not None:
+            self._recorder.state(world)
+
+    def image(self, image: Image) -> None:
+        """Record a picture, if a file is open."""
+        recorder = self._recorder
+        if recorder is not None:
+            recorder.image(image)
+
+    def _end(self, recorder: Recorder) -> None:
+        try:
+            recorder.__exit__(None, None, None)
+        except InputError as error:
+            self.failure = str(error)

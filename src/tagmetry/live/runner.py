@@ -1,0 +1,188 @@
+"""The arena that pages look at: runs in a thread of its own, as fast as the wall's clock.
+
+orders of pages -> stop, release, goals, scenarios -> one tick of the twin -> what pages are told
+
+A computer that is too slow lets the arena fall behind the clock; no tick of it is left out.
+"""
+
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from tagmetry.camera import Image
+from tagmetry.errors import InputError
+from tagmetry.geometry.arrays import AnyPixels
+from tagmetry.live.eye import Look
+from tagmetry.live.feed import Feed
+from tagmetry.live.messages import (
+    DRIVING,
+    Asked,
+    Beat,
+    ChooseScenario,
+    GoTo,
+    Release,
+    Resume,
+    StartRecording,
+    Stop,
+    StopRecording,
+    Told,
+)
+from tagmetry.live.orders import Order, Orders
+from tagmetry.live.recording import Recordings
+from tagmetry.live.stage import Performance, performance
+from tagmetry.live.watch import Watch
+from tagmetry.pipeline.arena_twin.ready import READY
+from tagmetry.pipeline.arena_twin.run import TICK_S
+
+_MOST_LATE_S = 0.25  # what is missed beyond is not caught up with
+_GONE = "the page that drives was closed, hidden or cut off"
+
+
+class LiveRunner:
+    """Runs a scenario for pages; to be used in a with-block.
+
+    Attributes:
+        viewers: How many pages are connected, as the server says.
+    """
+
+    def __init__(
+        self, scenario: str, robots: int, recordings: Path, give: Callable[[Told], None]
+    ) -> None:
+        """Make everything ready.
+
+        Args:
+            scenario: One of `READY`.
+            robots: How many.
+            recordings: Folder for what is recorded.
+            give: Takes every message for the pages, and returns at once.
+
+        Raises:
+            InputError: There is no such scenario, or not for so many robots.
+        """
+        self.viewers = 0
+        self._recordings = Recordings(recordings)
+        self._feed = Feed(give, self._recordings)
+        self._orders = Orders()
+        self._watch = Watch()
+        self._why: str | None = None
+        self._late_s = 0.0
+        self._show = self._begin(scenario, robots)
+        self._is_closing = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="arena", daemon=True)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """End, and finish the recording."""
+        self._is_closing.set()
+        self._thread.join()
+        self._show.close()
+        self._recordings.close()
+
+    @property
+    def scenarios(self) -> tuple[str, ...]:
+        """Names of what can be chosen."""
+        return tuple(READY)
+
+    @property
+    def time_s(self) -> float:
+        """Now, in the arena's clock."""
+        return self._show.arena.time_s
+
+    def ask(self, page: int, asked: Asked) -> None:
+        """Take what an operator's page asks for.
+
+        Args:
+            page: Its number.
+            asked: Its message.
+
+        Raises:
+            InputError: Too much waits already.
+        """
+        self._watch.hear(page)
+        if not isinstance(asked, Beat):
+            self._orders.put(Order(page, asked))
+
+    def leave(self, page: int) -> None:
+        """Take that a page is gone; all robots stop if it was the one that drives."""
+        if self._watch.is_driving(page):
+            self._orders.put(Order(page, Stop(_GONE)))
+
+    def _run(self) -> None:
+        due_s = time.monotonic()
+        while not self._is_closing.is_set():
+            self._obey()
+            self._tick()
+            due_s = max(due_s + TICK_S, time.monotonic() - _MOST_LATE_S)
+            self._late_s = max(time.monotonic() - due_s, 0.0)
+            self._feed.health(self._show, self._late_s, self.viewers)
+            self._is_closing.wait(max(due_s - time.monotonic(), 0.0))
+
+    def _tick(self) -> None:
+        began_s = time.monotonic()
+        for moment in self._show.arena.run(TICK_S):
+            self._recordings.state(moment.turn.step.world)
+            self._feed.moment(moment, self._show, self._why, time.monotonic() - began_s)
+
+    def _obey(self) -> None:
+        """Do what was asked, and stop the robots of a page that is gone."""
+        for order in self._orders.take():
+            try:
+                self._do(order)
+            except (InputError, OSError) as error:
+                self._feed.notice = str(error)
+        if self._watch.is_gone():
+            self._stop(_GONE)
+
+    def _do(self, order: Order) -> None:
+        if isinstance(order.asked, DRIVING):
+            self._watch.drive(order.page)
+        self._feed.notice = ""
+        match order.asked:
+            case Stop(why):
+                self._stop(why)
+            case Release():
+                self._why = None
+                self._show.arena.release()
+            case GoTo(robot_id, x_m, y_m):
+                self._show.send(robot_id, (x_m, y_m))
+            case Resume(robot_id):
+                self._show.send(robot_id, None)
+            case ChooseScenario(name, robots):
+                self._change(name, robots)
+            case StartRecording() | StopRecording():
+                self._record(order.asked)
+
+    def _record(self, asked: StartRecording | StopRecording) -> None:
+        if isinstance(asked, StartRecording):
+            self._recordings.start()
+        else:
+            self._recordings.stop()
+
+    def _stop(self, why: str) -> None:
+        self._watch.rest()
+        self._why = self._why or why
+        self._show.arena.stop(why)
+
+    def _change(self, name: str, robots: int) -> None:
+        before, self._show = self._show, self._begin(name, robots)
+        before.close()
+        self._why = None
+
+    def _begin(self, name: str, robots: int) -> Performance:
+        def give(look: Look, pixels: AnyPixels) -> None:
+            self._recordings.image(Image(pixels, look.time_s, "capture", source="twin"))
+            self._feed.picture(look, pixels, show)
+
+        show = performance(name, robots, give)
+        return show

@@ -1,0 +1,89 @@
+"""The live page's server: the page itself, the sign-in, and one socket for all messages.
+
+Every route is declared in `ROUTES` with the role that it needs; a test holds the app against it.
+"""
+
+import asyncio
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager
+
+from fastapi import FastAPI, Request, Response
+from starlette.requests import ClientDisconnect
+
+from tagmetry.live.access import Access
+from tagmetry.live.guard import Guard
+from tagmetry.live.hub import Hub
+from tagmetry.live.messages import Role
+from tagmetry.live.page import PARTS, Part
+from tagmetry.live.pages import Pages
+from tagmetry.live.running import Runner
+
+_MOST_BODY_BYTES = 512
+_PATIENCE_S = 5.0  # for a whole body
+
+ROUTES: dict[str, tuple[str, Role | None]] = {  # path: method and role; None: anybody
+    **dict.fromkeys(PARTS, ("GET", None)),
+    "/sign-in": ("POST", None),
+    "/live": ("WEBSOCKET", "viewer"),
+}
+
+
+def create_app(access: Access, hub: Hub, runner: Runner) -> FastAPI:
+    """Return the server.
+
+    Args:
+        access: Says who may do what.
+        hub: Tells the pages.
+        runner: Does what they ask.
+    """
+
+    @asynccontextmanager
+    async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        hub.open()
+        yield
+        hub.close()
+
+    app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None, lifespan=lifespan)
+    app.add_middleware(Guard, access=access)
+    for path, part in PARTS.items():
+        app.add_api_route(path, _shown(part), methods=["GET"])
+    app.add_api_route("/sign-in", _sign_in(access), methods=["POST"])
+    app.add_api_websocket_route("/live", Pages(access, hub, runner).serve)
+    return app
+
+
+def _shown(part: Part) -> Callable[[], Response]:
+    def show() -> Response:
+        return Response(part.content, media_type=part.kind)
+
+    return show
+
+
+def _sign_in(access: Access) -> Callable[[Request], Awaitable[Response]]:
+    async def sign_in(request: Request) -> Response:
+        body = await _body(request)
+        if body is None:
+            return Response("expected the token alone", 413, media_type="text/plain")
+        session = access.sign_in(body)
+        if session is None:
+            await asyncio.sleep(0.2)
+            return Response("this is not the token", 403, media_type="text/plain")
+        answer = Response(status_code=204)
+        answer.set_cookie(access.cookie, session, httponly=True, samesite="strict", path="/")
+        return answer
+
+    return sign_in
+
+
+async def _body(request: Request) -> str | None:
+    """Return a short body; None for one that is too long, too slow or no text."""
+    read = bytearray()
+    try:
+        async with asyncio.timeout(_PATIENCE_S):
+            async for piece in request.stream():
+                read += piece
+                if len(read) > _MOST_BODY_BYTES:
+                    return None
+        return read.decode("ascii").strip()
+    except (TimeoutError, UnicodeDecodeError, ClientDisconnect):
+        return None
