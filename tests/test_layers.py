@@ -25,7 +25,10 @@ IMPURE_MODULES = {
     "pickle", "requests", "shutil", "socket", "subprocess", "sys", "tempfile", "threading", "time",
     "urllib", "warnings",
 }  # fmt: skip
-COMPANIONS = {"pydantic_core": {"pydantic"}}  # pydantic requires it and documents its errors
+COMPANIONS = {  # required by, and documented with, what is declared
+    "pydantic_core": {"pydantic"},
+    "starlette": {"fastapi"},
+}
 IMPURE_CALLS = {"print", "open", "input", "exec", "eval", "breakpoint"}
 IMPURE_METHODS = {"imread", "imwrite", "imshow", "VideoCapture", "VideoWriter", "FileStorage"}
 
