@@ -112,6 +112,7 @@ def test_what_the_paper_says_is_found_by_figure() -> None:
     assert seed000().said("64 mm", "turn_deg").at == 3.9
 
 
+@pytest.mark.slow
 def test_one_condition_is_measured_by_both_methods() -> None:
     rows = [
         row
