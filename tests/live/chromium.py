@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import time
 import urllib.request
+from contextlib import ExitStack
 from itertools import count
 from pathlib import Path
 from types import TracebackType
@@ -40,15 +41,16 @@ class Chromium:
         self._numbers = count(1)
 
     def __enter__(self) -> Self:
-        quiet = subprocess.DEVNULL
-        environment = {**os.environ, "HOME": str(self._folder)}
-        self._browser = subprocess.Popen(self._command, stdout=quiet, stderr=quiet, env=environment)
-        try:
-            self._socket = connect(self._page_address(), max_size=None, origin=None)
-        except BaseException:
-            self._end()
-            raise
-        self.ask("Page.enable")
+        with ExitStack() as stack:
+            quiet = subprocess.DEVNULL
+            environment = {**os.environ, "HOME": str(self._folder)}
+            self._browser = subprocess.Popen(
+                self._command, stdout=quiet, stderr=quiet, env=environment
+            )
+            stack.callback(self._end)
+            self._socket = stack.enter_context(connect(self._page_address(), max_size=None))
+            self.ask("Page.enable")
+            self._open = stack.pop_all()
         return self
 
     def __exit__(
@@ -57,8 +59,7 @@ class Chromium:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self._socket.close()
-        self._end()
+        self._open.close()
 
     def ask(self, method: str, **values: object) -> dict[str, Any]:
         """Send one command of the protocol and return its answer."""

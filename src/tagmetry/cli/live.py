@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from tagmetry.live.opening import LivePage
 
 
-def live(
+def live(  # noqa: PLR0913 (each argument is an option)
     *,
     scenario: Annotated[
         str, typer.Option(help="leader_follower, aggregate, disperse or formation.")
@@ -20,6 +20,7 @@ def live(
     ] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="0 for a free one.")] = 8765,
     browser: Annotated[bool, typer.Option(help="Open the page in the browser.")] = True,
+    pictures: Annotated[bool, typer.Option(help="Paint what the camera sees.")] = True,
     recordings: Annotated[
         Path, typer.Option(help="Folder for what is recorded on the page.")
     ] = Path("recordings"),
@@ -37,7 +38,7 @@ def live(
     _require_server()
     from tagmetry.live.opening import opened_page
 
-    with opened_page(scenario, robots, address, port, recordings) as page:
+    with opened_page(scenario, robots, address, port, recordings, pictures=pictures) as page:
         _tell(page)
         if browser:
             _open_soon(page.url)

@@ -20,7 +20,7 @@ from tagmetry.pipeline.arena_twin.ready.stage import floor, shot
 from tagmetry.twin.robots.overhead import OverheadPictures
 
 PICTURE_S = 0.1  # between two pictures, at least
-_REST = 2.0  # after every picture so many times its cost, so that the robots' thread has its share
+_REST = 2.0  # times the processor time of a picture, for the thread that runs the robots
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,9 +86,9 @@ class Painter:
         rng = np.random.default_rng(0)
         painted_s = float("-inf")
         while not self._is_closing.is_set():
-            began_s, look = time.monotonic(), self._eye.newest
+            began_s, look = time.thread_time(), self._eye.newest
             if look is not None and look.time_s > painted_s:
                 painted_s = look.time_s
                 self._give(look, pictures.take(look.Ts_world_robot, rng))
-            cost_s = time.monotonic() - began_s
+            cost_s = time.thread_time() - began_s
             self._is_closing.wait(max(PICTURE_S - cost_s, _REST * cost_s, 0.005))

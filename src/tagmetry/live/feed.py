@@ -16,6 +16,7 @@ from tagmetry.live.told import told_markers, told_world
 from tagmetry.pipeline.arena_twin import Moment
 
 _WORLD_S, _HEALTH_S = 1 / 20, 0.5
+_WORLD_SENDS_PER_S, _PICTURE_SENDS_PER_S = 3000, 500  # to all pages together
 _SCALE, _JPEG_QUALITY = 0.5, 75
 
 
@@ -24,6 +25,7 @@ class Feed:
 
     Attributes:
         notice: What went wrong last; empty while all is well.
+        viewers: How many pages there are; many are told less often.
     """
 
     def __init__(self, give: Callable[[Told], None], recordings: Recordings) -> None:
@@ -33,11 +35,11 @@ class Feed:
             give: Takes every message, in the thread that made it, and returns at once.
             recordings: What health tells about.
         """
-        self.notice = ""
+        self.notice, self.viewers = "", 0
         self._give, self._recordings = give, recordings
         self._images, self._pictures = Rate(), Rate()
         self._world_s = self._health_s = float("-inf")
-        self._picture_s: float | None = None
+        self._picture_s: float | None = None  # when the newest was made
 
     def moment(self, moment: Moment, show: Performance, why: str | None, took_s: float) -> None:
         """Tell where the robots are, unless that was told just now.
@@ -49,14 +51,18 @@ class Feed:
             took_s: Time that it took.
         """
         self._images.count(took_s)
-        if time.monotonic() - self._world_s >= _WORLD_S:
+        step_s = max(_WORLD_S, self.viewers / _WORLD_SENDS_PER_S)
+        if time.monotonic() - self._world_s >= step_s:
             self._world_s = time.monotonic()
             self._give(told_world(moment, show.arena.scenario, show.steered, why))
 
     def picture(self, look: Look, pixels: AnyPixels, show: Performance) -> None:
-        """Tell what the camera sees."""
+        """Tell what the camera sees, unless many pages were told just now."""
+        now_s, step_s = time.monotonic(), self.viewers / _PICTURE_SENDS_PER_S
+        if self._picture_s is not None and now_s - self._picture_s < step_s:
+            return
+        self._picture_s = now_s
         self._pictures.count()
-        self._picture_s = time.monotonic()
         small = cv2.resize(pixels, None, fx=_SCALE, fy=_SCALE, interpolation=cv2.INTER_AREA)
         _, jpeg = cv2.imencode(".jpg", small, [cv2.IMWRITE_JPEG_QUALITY, _JPEG_QUALITY])
         height_px, width_px = small.shape[:2]
@@ -64,7 +70,7 @@ class Feed:
         encoded = base64.b64encode(jpeg.tobytes()).decode()
         self._give(Picture(look.time_s, width_px, height_px, markers, encoded))
 
-    def health(self, show: Performance, late_s: float, viewers: int) -> None:
+    def health(self, show: Performance, late_s: float) -> None:
         """Tell how the measurement does, unless that was told just now."""
         now_s = time.monotonic()
         if now_s - self._health_s < _HEALTH_S:
@@ -78,7 +84,7 @@ class Feed:
                 self._images.mean_s,
                 self._pictures.per_s,
                 None if self._picture_s is None else now_s - self._picture_s,
-                viewers,
+                self.viewers,
                 self._recordings.name,
                 self.notice or self._recordings.failure,
             )

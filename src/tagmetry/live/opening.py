@@ -39,7 +39,13 @@ class LivePage:
 
 @contextmanager
 def opened_page(
-    scenario: str, robots: int, address: str, port: int, recordings: Path
+    scenario: str,
+    robots: int,
+    address: str,
+    port: int,
+    recordings: Path,
+    *,
+    pictures: bool = True,
 ) -> Iterator[LivePage]:
     """Give a page whose arena runs; it ends with the block.
 
@@ -49,6 +55,7 @@ def opened_page(
         address: To listen at: an interface of this computer.
         port: To listen at; 0 for a free one.
         recordings: Folder for recordings.
+        pictures: Paint what the camera sees.
 
     Raises:
         InputError: One of them cannot be used.
@@ -56,7 +63,7 @@ def opened_page(
     with listening(address, port) as opened:
         port = opened.getsockname()[1]
         access, hub = Access(address, port), Hub()
-        with LiveRunner(scenario, robots, recordings, hub.give) as runner:
+        with LiveRunner(scenario, robots, recordings, hub.give, pictures=pictures) as runner:
             host = f"[{address}]" if ":" in address else address
             url = f"http://{host}:{port}/"
             yield LivePage(url, access.token, runner, server(access, hub, runner), opened)

@@ -42,14 +42,16 @@ _GONE = "the page that drives was closed, hidden or cut off"
 
 
 class LiveRunner:
-    """Runs a scenario for pages; to be used in a with-block.
-
-    Attributes:
-        viewers: How many pages are connected, as the server says.
-    """
+    """Runs a scenario for pages; to be used in a with-block."""
 
     def __init__(
-        self, scenario: str, robots: int, recordings: Path, give: Callable[[Told], None]
+        self,
+        scenario: str,
+        robots: int,
+        recordings: Path,
+        give: Callable[[Told], None],
+        *,
+        pictures: bool = True,
     ) -> None:
         """Make everything ready.
 
@@ -58,11 +60,12 @@ class LiveRunner:
             robots: How many.
             recordings: Folder for what is recorded.
             give: Takes every message for the pages, and returns at once.
+            pictures: Paint what the camera sees.
 
         Raises:
             InputError: There is no such scenario, or not for so many robots.
         """
-        self.viewers = 0
+        self._pictures = pictures
         self._recordings = Recordings(recordings)
         self._feed = Feed(give, self._recordings)
         self._orders = Orders()
@@ -88,6 +91,15 @@ class LiveRunner:
         self._thread.join()
         self._show.close()
         self._recordings.close()
+
+    @property
+    def viewers(self) -> int:
+        """How many pages are connected, as the server says."""
+        return self._feed.viewers
+
+    @viewers.setter
+    def viewers(self, count: int) -> None:
+        self._feed.viewers = count
 
     @property
     def scenarios(self) -> tuple[str, ...]:
@@ -125,7 +137,7 @@ class LiveRunner:
             self._tick()
             due_s = max(due_s + TICK_S, time.monotonic() - _MOST_LATE_S)
             self._late_s = max(time.monotonic() - due_s, 0.0)
-            self._feed.health(self._show, self._late_s, self.viewers)
+            self._feed.health(self._show, self._late_s)
             self._is_closing.wait(max(due_s - time.monotonic(), 0.0))
 
     def _tick(self) -> None:
@@ -184,5 +196,5 @@ class LiveRunner:
             self._recordings.image(Image(pixels, look.time_s, "capture", source="twin"))
             self._feed.picture(look, pixels, show)
 
-        show = performance(name, robots, give)
+        show = performance(name, robots, give if self._pictures else None)
         return show

@@ -27,7 +27,7 @@ class Performance:
         steered: Every robot's controller, by id.
         roster: The robots as the arena knows them.
         eye: Whose newest look is painted.
-        painter: Paints it.
+        painter: Paints it; None where nobody wants pictures.
     """
 
     name: str
@@ -35,7 +35,7 @@ class Performance:
     steered: Mapping[int, Steered]
     roster: Roster
     eye: WatchedEye
-    painter: Painter
+    painter: Painter | None
 
     def send(self, robot_id: int, goal_m: tuple[float, float] | None) -> None:
         """Send a robot to a place on the floor, or give it back to its controller when None.
@@ -51,24 +51,28 @@ class Performance:
 
     def close(self) -> None:
         """End its threads."""
-        self.painter.close()
+        if self.painter is not None:
+            self.painter.close()
         self.arena.close()
 
 
-def performance(name: str, robots: int, give: Callable[[Look, AnyPixels], None]) -> Performance:
+def performance(
+    name: str, robots: int, give: Callable[[Look, AnyPixels], None] | None
+) -> Performance:
     """Return a ready-made scenario that can begin.
 
     Args:
         name: Of the scenario.
         robots: How many.
-        give: Takes the camera's pictures, in a thread of its own.
+        give: Takes the camera's pictures, in a thread of its own; None for no pictures.
     """
     scenario, steered = steerable(ready_scenario(name, robots))
     roster = Roster(tuple(one.robot for one in scenario.robots))
     noise = np.random.default_rng(scenario.seed)
     eye = WatchedEye(CornerEye(roster.robots, scenario.view, noise))
     arena = TwinArena(scenario, eye)
-    return Performance(name, arena, steered, roster, eye, Painter(roster.robots, eye, give))
+    painter = Painter(roster.robots, eye, give) if give is not None else None
+    return Performance(name, arena, steered, roster, eye, painter)
 
 
 def steerable(scenario: Scenario) -> tuple[Scenario, Mapping[int, Steered]]:

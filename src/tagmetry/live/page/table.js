@@ -55,7 +55,7 @@ function stateOf(one) {
 }
 
 function number(value, digits) {
-  return value === null || value === undefined ? "–" : value.toFixed(digits);
+  return value === null ? "–" : value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1");
 }
 
 function put(element, text) {

@@ -1,0 +1,192 @@
+"""The page in a real browser: opened, signed in, robots seen moving, stopped by the space bar."""
+
+import json
+import os
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from chromium import Chromium, browser_path
+from live_server import running, served
+
+from tagmetry.live.opening import LivePage, opened_page
+
+PICTURES = os.environ.get("LIVE_PICTURES")  # a folder; for the docs
+PHONE, DESK = (390, 844), (1280, 1150)
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LivePage]:
+    browser_path()
+    folder = tmp_path_factory.mktemp("recordings")
+    with (
+        opened_page("leader_follower", 12, "127.0.0.1", 0, folder, pictures=bool(PICTURES)) as own,
+        running(own.server, own.socket),
+    ):
+        yield own
+
+
+@pytest.fixture(scope="module")
+def window(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium]:
+    with Chromium(tmp_path_factory.mktemp("profile"), DESK) as own:
+        yield own
+
+
+@pytest.fixture
+def browser(window: Chromium, page: LivePage) -> Chromium:
+    """Return a browser that shows the page; once signed in it stays so."""
+    window.resize(*DESK, is_phone=False)
+    window.open(page.url)
+    window.wait("document.body?.dataset.places?.includes(';')", 40)
+    return window
+
+
+def sign_in(browser: Chromium, token: str) -> None:
+    """Sign in, unless the browser was before: a page that joins anew lets go of the robots."""
+    if browser.run("document.getElementById('sign-in').hidden"):
+        return
+    browser.run(f"document.getElementById('token').value = {json.dumps(token)}; true")
+    browser.run("document.getElementById('sign-in').requestSubmit(); true")
+    browser.wait("document.getElementById('connection').textContent.includes('you command')")
+
+
+def places(browser: Chromium) -> np.ndarray:
+    """Return (id, x, y, speed) of all robots as the page has them, shape (n, 4)."""
+    text = browser.run("document.body.dataset.places")
+    return np.array([[float(v) for v in line.split()] for line in text.split(";")])
+
+
+def release(browser: Chromium) -> None:
+    if browser.run("document.body.dataset.stopped") == "true":
+        browser.wait("!document.getElementById('release').disabled")
+        browser.run("document.getElementById('release').click(); true")
+        browser.wait("document.body.dataset.stopped === 'false'")
+
+
+def test_a_viewer_sees_robots_move_and_cannot_command(browser: Chromium) -> None:
+    browser.wait("document.querySelectorAll('#table tr').length === 12")
+    assert browser.run("document.getElementById('stop').disabled")
+    before = places(browser)
+    browser.wait(f"document.body.dataset.places !== {json.dumps(text_of(browser))}")
+    wait_for_motion(browser, before)
+
+
+def text_of(browser: Chromium) -> str:
+    return browser.run("document.body.dataset.places")
+
+
+def wait_for_motion(browser: Chromium, before: np.ndarray, seconds: float = 30.0) -> None:
+    end_s = time.monotonic() + seconds
+    while np.abs(places(browser)[:, 1:3] - before[:, 1:3]).max() < 0.05:
+        assert time.monotonic() < end_s
+        time.sleep(0.1)
+
+
+def test_the_space_bar_stops_all_robots_and_a_button_releases(
+    browser: Chromium, page: LivePage
+) -> None:
+    sign_in(browser, page.token)
+    release(browser)
+    wait_for_motion(browser, places(browser))
+    browser.press_space()
+    browser.wait("document.body.dataset.stopped === 'true'", 5)
+    browser.wait("!document.getElementById('notice').hidden")
+    end_s = time.monotonic() + 10
+    while np.abs(places(browser)[:, 3]).max() > 0.01:
+        assert time.monotonic() < end_s
+        time.sleep(0.05)
+    stood = places(browser)
+    time.sleep(0.5)
+    assert np.abs(places(browser)[:, 1:3] - stood[:, 1:3]).max() < 0.005
+    release(browser)
+    wait_for_motion(browser, stood)
+
+
+def test_a_click_sends_the_selected_robot(browser: Chromium, page: LivePage) -> None:
+    sign_in(browser, page.token)
+    release(browser)
+    browser.run("document.querySelector('#table button').click(); true")
+    browser.wait("document.getElementById('map').classList.contains('armed')")
+    box = browser.run(
+        "(() => { const b = document.getElementById('map').getBoundingClientRect();"
+        " return [b.x, b.y, b.width, b.height]; })()"
+    )
+    browser.click(box[0] + 0.5 * box[2], box[1] + 0.15 * box[3])
+    browser.wait("document.getElementById('table').textContent.includes('sent by hand')")
+    if PICTURES:
+        photograph(browser)
+    browser.wait("!document.getElementById('resume').disabled")
+    browser.run("document.getElementById('resume').click(); true")
+    browser.wait("!document.getElementById('table').textContent.includes('sent by hand')")
+
+
+def photograph(browser: Chromium) -> None:
+    """Take the pictures of the docs, when the camera's first picture has come and robots drove."""
+    folder = Path(PICTURES or ".")
+    browser.wait("document.getElementById('camera-hint').textContent.includes('found')", 120)
+    time.sleep(6)
+    browser.photograph(folder / "desktop.png")
+    browser.resize(*PHONE, is_phone=True)
+    dark = [{"name": "prefers-color-scheme", "value": "dark"}]
+    browser.ask("Emulation.setEmulatedMedia", features=dark)
+    time.sleep(1)
+    browser.photograph(folder / "phone.png")
+    browser.resize(*DESK, is_phone=False)
+
+
+def test_a_page_that_is_closed_while_it_drives_stops_the_robots(
+    browser: Chromium, page: LivePage, tmp_path: Path
+) -> None:
+    sign_in(browser, page.token)
+    release(browser)
+    with Chromium(tmp_path / "other", DESK) as other:
+        other.open(page.url)
+        other.wait("document.body?.dataset.places?.includes(';')", 40)
+        sign_in(other, page.token)
+        other.press_space()
+        other.wait("document.body.dataset.stopped === 'true'")
+        release(other)
+        other.open("about:blank")
+        browser.wait("document.body.dataset.stopped === 'true'", 5)
+    told = browser.run("document.getElementById('notice').textContent")
+    assert "closed, hidden or cut off" in told
+    release(browser)
+
+
+def test_fits_a_phone_without_scrolling_aside(browser: Chromium) -> None:
+    browser.resize(*PHONE, is_phone=True)
+    assert browser.run("document.documentElement.scrollWidth") <= PHONE[0]
+    heights = browser.run(
+        "[...document.querySelectorAll('header button, #commands button')]"
+        ".map((b) => b.getBoundingClientRect().height)"
+    )
+    assert min(heights) >= 40  # for fingers
+
+
+def test_every_control_has_a_name(browser: Chromium) -> None:
+    nameless = browser.run(
+        "[...document.querySelectorAll('button, input, select, canvas')].filter((e) =>"
+        " !(e.textContent.trim() || e.getAttribute('aria-label') || e.labels?.length)).length"
+    )
+    assert nameless == 0
+
+
+def test_loads_nothing_from_other_hosts(browser: Chromium) -> None:
+    loaded = browser.run("performance.getEntriesByType('resource').map((one) => one.name)")
+    own = browser.run("location.origin")
+    assert [name for name in loaded if not name.startswith((own, "data:"))] == []
+    assert len(loaded) > 4
+
+
+def test_comes_back_within_two_seconds(browser: Chromium) -> None:
+    says = "document.getElementById('connection').textContent"
+    with served() as first:
+        browser.open(f"http://{first.host}/")
+        browser.wait(f"document.readyState === 'complete' && {says}.includes('looking')")
+    browser.wait(f"{says}.includes('lost')", 5)
+    with served(port=first.port):
+        back_s = time.monotonic()
+        browser.wait(f"{says}.includes('looking')")
+        assert time.monotonic() - back_s < 2.0
