@@ -46,6 +46,13 @@ def test_carries_the_robots_client_in_c(wheel: ZipFile) -> None:
     assert {f"{folder}/tagmetry_link.h", f"{folder}/tagmetry_link.c"} <= set(wheel.namelist())
 
 
+def test_carries_the_live_page(wheel: ZipFile) -> None:
+    folder = "tagmetry/live/page"
+    assert {f"{folder}/{name}" for name in ("index.html", "app.js", "style.css")} <= set(
+        wheel.namelist()
+    )
+
+
 def test_installs_the_command(wheel: ZipFile) -> None:
     (name,) = (name for name in wheel.namelist() if name.endswith("entry_points.txt"))
     assert "tagmetry = tagmetry.cli.main:main" in wheel.read(name).decode()

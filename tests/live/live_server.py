@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import uvicorn
 from websockets.sync.client import ClientConnection, connect
@@ -20,6 +21,7 @@ from tagmetry.live.serving import listening, server
 class Remembering:
     """A runner that does nothing."""
 
+    recordings: Path = Path("nowhere")
     viewers: int = 0
     asked: list[tuple[int, Asked]] = field(default_factory=list)
     left: list[int] = field(default_factory=list)

@@ -11,7 +11,9 @@ import pytest
 from chromium import Chromium, browser_path
 from live_server import running, served
 
+from tagmetry.live.messages import LiveRobot, World
 from tagmetry.live.opening import LivePage, opened_page
+from tagmetry.live.watch import PATIENCE_S
 
 PICTURES = os.environ.get("LIVE_PICTURES")  # a folder; for the docs
 PHONE, DESK = (390, 844), (1280, 1150)
@@ -153,6 +155,48 @@ def test_a_page_that_is_closed_while_it_drives_stops_the_robots(
     told = browser.run("document.getElementById('notice').textContent")
     assert "closed, hidden or cut off" in told
     release(browser)
+
+
+def test_a_page_that_is_hidden_while_it_drives_stops_the_robots(
+    browser: Chromium, page: LivePage
+) -> None:
+    sign_in(browser, page.token)
+    browser.press_space()
+    browser.wait("document.body.dataset.stopped === 'true'")
+    release(browser)
+    time.sleep(2 * PATIENCE_S)
+    assert browser.run("document.body.dataset.stopped") == "false"
+    browser.run("Object.defineProperty(document, 'hidden', { value: true }); true")
+    browser.wait("document.body.dataset.stopped === 'true'", 5)
+
+
+def test_records_from_the_page(browser: Chromium, page: LivePage) -> None:
+    sign_in(browser, page.token)
+    button = "document.getElementById('record')"
+    says = f"{button}.textContent"
+    browser.run(f"{button}.click(); true")
+    browser.wait(f"{says} === 'End recording'")
+    browser.wait("document.getElementById('health').textContent.includes('.mcap')")
+    browser.run(f"{button}.click(); true")
+    browser.wait(f"{says} === 'Record'")
+    browser.wait("document.querySelectorAll('#recordings a').length >= 1")
+
+
+def test_names_are_text(browser: Chromium) -> None:
+    name = "<img src=x onerror=\"document.body.dataset.broken='yes'\">"
+    robot = LiveRobot(
+        7, name, 0.0, 0.0, 0.0, 0.0, 0.08, (0.001, 0.001, 0.0), 0.0, True, True, name, None, None,
+        None, 0.0, None, (),
+    )  # fmt: skip
+    with served() as live:
+        live.hub.give(World(1.0, (robot,), (name,), True, name))
+        browser.open(f"http://{live.host}/")
+        browser.wait("document.querySelectorAll('#table tr').length === 1")
+        assert browser.run("document.querySelector('#table button').textContent") == name
+        assert name in browser.run("document.getElementById('notice').textContent")
+        time.sleep(0.2)
+        assert browser.run("document.querySelectorAll('main img').length") == 0
+        assert not browser.run("document.body.dataset.broken")
 
 
 def test_fits_a_phone_without_scrolling_aside(browser: Chromium) -> None:

@@ -1,7 +1,9 @@
 """The server: every route's role, strangers' requests, the token's secrecy, bounds."""
 
+import json
 import logging
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from live_server import Served, drained, eventually, served
@@ -11,6 +13,7 @@ from websockets.sync.client import connect
 from tagmetry.errors import InputError
 from tagmetry.live.hub import Hub
 from tagmetry.live.messages import CONTRACT, Beat, GoTo, Stop
+from tagmetry.live.page import PARTS
 from tagmetry.live.server import ROUTES, create_app
 from tagmetry.live.serving import listening
 from tagmetry.live.wire import format_message
@@ -54,8 +57,7 @@ def test_a_route_answers_its_method_alone(live: Served, path: str, method: str, 
 
 def test_what_anybody_gets_is_the_page_alone(far: Served) -> None:
     for path, (method, role) in ROUTES.items():
-        if method == "GET":
-            assert role is None
+        if method == "GET" and role is None:
             status, _, _ = far.ask("GET", path, **far_headers(far))
             assert status == 200
 
@@ -194,8 +196,8 @@ def test_every_answer_carries_the_safety_headers_and_no_cors(live: Served, path:
 
 
 def test_the_page_holds_no_script_of_its_own_and_names_no_other_host(live: Served) -> None:
-    for path, (method, _) in ROUTES.items():
-        if method == "GET":
+    for path in ROUTES:
+        if path in PARTS:
             text = live.ask("GET", path)[2].decode()
             assert "http://" not in text.replace("http://www.w3.org", "")
             assert "https://" not in text
@@ -265,6 +267,47 @@ def test_a_page_that_closes_has_left(live: Served) -> None:
         eventually(lambda: isinstance(live.runner.asked[-1][1], Stop))
     eventually(lambda: len(live.runner.left) == before + 1)
     assert live.runner.left[-1] == live.runner.asked[-1][0]
+
+
+@pytest.fixture
+def shelf(live: Served, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder of recordings beside secrets."""
+    folder = tmp_path / "recordings"
+    folder.mkdir()
+    (folder / "2026-01-01.mcap").write_bytes(b"one")
+    (folder / "note.txt").write_bytes(b"root: secret")
+    (tmp_path / "secret.mcap").write_bytes(b"root: secret")
+    (folder / "link.mcap").symlink_to(tmp_path / "secret.mcap")
+    monkeypatch.setattr(live.runner, "recordings", folder)
+    return folder
+
+
+def test_an_operator_lists_and_fetches_recordings(live: Served, shelf: Path) -> None:
+    cookie = live.session()
+    status, _, body = live.ask("GET", "/recordings", Cookie=cookie)
+    assert (status, json.loads(body)) == (200, [{"name": "2026-01-01.mcap", "size_bytes": 3}])
+    status, headers, body = live.ask("GET", "/recordings/2026-01-01.mcap", Cookie=cookie)
+    assert (status, body) == (200, b"one")
+    assert headers["content-disposition"].startswith("attachment")
+
+
+@pytest.mark.parametrize("cookie", ["", "tagmetry_live_{port}=x", "tagmetry_live_{port}="])
+@pytest.mark.parametrize("path", [path for path, (_, role) in ROUTES.items() if role == "operator"])
+def test_who_is_no_operator_gets_nothing_of_an_operators_route(
+    live: Served, shelf: Path, cookie: str, path: str
+) -> None:
+    named = path.replace("{name}", "2026-01-01.mcap")
+    own = cookie.replace("{port}", str(live.port))
+    assert live.ask(ROUTES[path][0], named, Cookie=own)[0] == 403
+
+
+def test_no_name_leads_out_of_the_recordings(live: Served, shelf: Path) -> None:
+    cookie = live.session()
+    names = ["note.txt", "link.mcap", "../secret.mcap", "..%2fsecret.mcap", "secret.mcap", "%00"]
+    for name in [*names, *(path.lstrip("/") for path in TRAVERSALS)]:
+        status, _, body = live.ask("GET", f"/recordings/{name}", Cookie=cookie)
+        assert status in (400, 404), name
+        assert b"root:" not in body
 
 
 def test_no_port_twice(live: Served) -> None:

@@ -14,6 +14,7 @@ class Recordings:
     """Writes one file at a time into a folder.
 
     Attributes:
+        folder: Where they lie.
         name: Of the file that is being written; None while none is.
         failure: Why the last one ended early; empty while all is well.
     """
@@ -21,7 +22,7 @@ class Recordings:
     def __init__(self, folder: Path) -> None:
         self.name: str | None = None
         self.failure = ""
-        self._folder = folder
+        self.folder = folder
         self._recorder: Recorder | None = None
         self._closing: threading.Thread | None = None
 
@@ -33,9 +34,9 @@ class Recordings:
         """
         if self._recorder is not None:
             return
-        self._folder.mkdir(parents=True, exist_ok=True)
+        self.folder.mkdir(parents=True, exist_ok=True)
         name = f"{datetime.now().astimezone():%Y-%m-%d-%H-%M-%S-%f}.mcap"
-        self._recorder = Recorder(self._folder / name).__enter__()
+        self._recorder = Recorder(self.folder / name).__enter__()
         self.name, self.failure = name, ""
 
     def stop(self) -> None:

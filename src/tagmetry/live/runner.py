@@ -107,6 +107,11 @@ class LiveRunner:
         return tuple(READY)
 
     @property
+    def recordings(self) -> Path:
+        """Folder of what was recorded; may not be there yet."""
+        return self._recordings.folder
+
+    @property
     def time_s(self) -> float:
         """Now, in the arena's clock."""
         return self._show.arena.time_s

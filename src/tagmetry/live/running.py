@@ -1,5 +1,6 @@
 """What the server needs of the arena that runs behind it."""
 
+from pathlib import Path
 from typing import Protocol
 
 from tagmetry.live.messages import Asked
@@ -17,6 +18,10 @@ class Runner(Protocol):
     @property
     def scenarios(self) -> tuple[str, ...]:
         """Names of what can be chosen."""
+
+    @property
+    def recordings(self) -> Path:
+        """Folder of what was recorded; may not be there yet."""
 
     def ask(self, page: int, asked: Asked) -> None:
         """Take what an operator's page asks for.

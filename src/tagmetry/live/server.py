@@ -17,6 +17,7 @@ from tagmetry.live.messages import Role
 from tagmetry.live.page import PARTS, Part
 from tagmetry.live.pages import Pages
 from tagmetry.live.running import Runner
+from tagmetry.live.shelf import Shelf
 
 _MOST_BODY_BYTES = 512
 _PATIENCE_S = 5.0  # for a whole body
@@ -24,6 +25,8 @@ _PATIENCE_S = 5.0  # for a whole body
 ROUTES: dict[str, tuple[str, Role | None]] = {  # path: method and role; None: anybody
     **dict.fromkeys(PARTS, ("GET", None)),
     "/sign-in": ("POST", None),
+    "/recordings": ("GET", "operator"),
+    "/recordings/{name}": ("GET", "operator"),
     "/live": ("WEBSOCKET", "viewer"),
 }
 
@@ -47,6 +50,8 @@ def create_app(access: Access, hub: Hub, runner: Runner) -> FastAPI:
     app.add_middleware(Guard, access=access)
     for path, part in PARTS.items():
         app.add_api_route(path, _shown(part), methods=["GET"])
+    for path, answer in Shelf(access, runner).routes.items():
+        app.add_api_route(path, answer, methods=["GET"], response_model=None)
     app.add_api_route("/sign-in", _sign_in(access), methods=["POST"])
     app.add_api_websocket_route("/live", Pages(access, hub, runner).serve)
     return app

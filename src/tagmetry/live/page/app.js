@@ -30,6 +30,7 @@ function welcome(message) {
   map.half = message.floor_m;
   startAnew();
   $("sign-in").hidden = role === "operator";
+  $("shelf").hidden = role !== "operator";
   for (const id of OPERATORS) $(id).disabled = role !== "operator";
   $("scenario").replaceChildren(...message.scenarios.map((name) => new Option(name, name)));
   clearInterval(beating);
@@ -80,6 +81,7 @@ function showPicture(message) {
 }
 
 function showHealth(one) {
+  if (recording !== one.recording) showRecordings();
   recording = one.recording;
   $("record").textContent = recording ? "End recording" : "Record";
   $("record").setAttribute("aria-pressed", String(Boolean(recording)));
@@ -91,6 +93,21 @@ function showHealth(one) {
   if (recording) parts.push(`recording ${recording}`);
   $("health").textContent = parts.join(" · ");
   if (one.notice) notice(one.notice);
+}
+
+async function showRecordings() {
+  if (role !== "operator") return;
+  const answer = await fetch("/recordings");
+  const found = answer.ok ? await answer.json() : [];
+  $("shelf-hint").hidden = found.length > 0;
+  $("recordings").replaceChildren(...found.map((one) => {
+    const line = document.createElement("li"), link = document.createElement("a");
+    link.href = `/recordings/${encodeURIComponent(one.name)}`;
+    link.download = one.name;
+    link.textContent = `${one.name}, ${(one.size_bytes / 1e6).toFixed(1)} MB`;
+    line.append(link);
+    return line;
+  }));
 }
 
 function notice(text, isStop = false) {
@@ -121,6 +138,7 @@ function told(one) {
     (role === "operator" ? "Click on the map where it shall go." : "");
 }
 
+$("shelf").addEventListener("toggle", showRecordings);
 $("stop").addEventListener("click", () => link.send("Stop"));
 $("release").addEventListener("click", () => link.send("Release"));
 $("resume").addEventListener("click", () => link.send("Resume", { robot_id: selected }));
