@@ -10,13 +10,16 @@ PINNED := $(INSTALL) --require-hashes --only-binary=:all:
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-slow check format docs pages bench wheel requirements clean
+.PHONY: help demo live test test-slow check format docs pages bench wheel requirements clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: $(VENV)/package.stamp ## Print, render, detect, measure; with IMAGE=photo.jpg: your own picture
 	@$(BIN)/tagmetry demo $(if $(IMAGE),--image "$(IMAGE)")
+
+live: $(VENV)/package.stamp ## Open the live page: twelve simulated robots in a browser; end it with Ctrl-C
+	@$(BIN)/tagmetry live
 
 test: $(VENV)/dev.stamp ## Run the tests; TESTS=tests/pose for a part of them
 	$(BIN)/python -m pytest -n $(JOBS) --cov --cov-report=term $(TESTS)
