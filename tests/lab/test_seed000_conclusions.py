@@ -73,7 +73,7 @@ def test_poor_readings_fail_where_they_are_poor(changes, failing) -> None:
 
 def test_an_error_of_the_turn_fails_and_a_flip_is_counted() -> None:
     rows = [replace(row, measured_deg=row.turn_deg + 0.6) for row in readings()]
-    assert "6 conditions worse" in conclude(rows).checks[2].measured
+    assert "2 of 2 conditions worse" in conclude(rows).checks[2].measured
     flipped = [replace(row, measured_deg=-row.turn_deg) for row in readings()]
     told = conclude(flipped).checks[2]
     assert told.holds

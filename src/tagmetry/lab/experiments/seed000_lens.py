@@ -43,16 +43,28 @@ class Case:
 
 def cases(quick: bool) -> tuple[Case, ...]:
     """Return all conditions, each for both methods."""
-    depths_m = (0.05, 0.3, 1.05) if quick else (0.05, 0.1, 0.25, 0.45, 0.65, 0.85, 1.05)
-    turns_deg = (0.0, 40.0) if quick else (0.0, 5.0, 10.0, 20.0, 35.0, 50.0, 65.0)
-    sizes = [("64 mm", 0.064, z, turn) for z in (0.1, 0.4, 0.7) for turn in (0.0, 30.0)]
-    conditions = [
+    conditions = _some() if quick else _all()
+    return tuple(Case(method, *one) for one in conditions for method in ("tagmetry", "paper"))
+
+
+def _some() -> list[tuple[str, float, float, float]]:
+    return [
+        *(("11", 0.01, z, 30.0) for z in (0.05, 0.3, 1.05)),
+        *(("13", 0.01, z, 40.0) for z in (1.0, 0.1)),
+        *(("14", 0.01, 0.55, turn) for turn in (0.0, 40.0)),
+        ("64 mm", 0.064, 0.4, 30.0),
+    ]
+
+
+def _all() -> list[tuple[str, float, float, float]]:
+    depths_m = (0.05, 0.1, 0.25, 0.45, 0.65, 0.85, 1.05)
+    turns_deg = (0.0, 5.0, 10.0, 20.0, 35.0, 50.0, 65.0)
+    return [
         *(("11", 0.01, z, turn) for turn in (0.0, 30.0, 60.0) for z in depths_m),
         *(("13", 0.01, z, 40.0) for z in (1.0, 0.5, 0.1)),
         *(("14", 0.01, z, turn) for z in (0.05, 0.55, 1.05) for turn in turns_deg),
-        *(sizes[:2] if quick else sizes),
+        *(("64 mm", 0.064, z, turn) for z in (0.1, 0.4, 0.7) for turn in (0.0, 30.0)),
     ]
-    return tuple(Case(method, *one) for one in conditions for method in ("tagmetry", "paper"))
 
 
 def measure(case: Case, seed: int) -> Sequence[LensReading]:
