@@ -77,7 +77,7 @@ def test_an_error_of_the_turn_fails_and_a_flip_is_counted() -> None:
     flipped = [replace(row, measured_deg=-row.turn_deg) for row in readings()]
     told = conclude(flipped).checks[2]
     assert told.holds
-    assert "15 of 30 flipped" in told.measured  # at a turn of 0 there is nothing to flip
+    assert "5 of 10 flipped" in told.measured  # at a turn of 0 there is nothing to flip
 
 
 def test_a_range_ends_where_one_of_five_is_missing() -> None:
