@@ -10,7 +10,7 @@ PINNED := $(INSTALL) --require-hashes --only-binary=:all:
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo live test test-slow check format docs pages bench wheel requirements clean
+.PHONY: help demo live coverage test test-slow check format docs pages bench wheel requirements clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -22,6 +22,9 @@ live: $(VENV)/package.stamp ## Open the live page: twelve simulated robots in a 
 	@$(BIN)/tagmetry live
 
 test: $(VENV)/dev.stamp ## Run the tests; TESTS=tests/pose for a part of them
+	$(BIN)/python -m pytest -n $(JOBS) $(TESTS)
+
+coverage: $(VENV)/dev.stamp ## Run the tests and say which lines they reach; tracing takes its time
 	$(BIN)/python -m pytest -n $(JOBS) --cov --cov-report=term $(TESTS)
 
 test-slow: $(VENV)/dev.stamp ## Run the long tests as well
