@@ -145,6 +145,24 @@ def test_the_shield_stops_before_a_robot(speed_mps):
     assert 0.16 < min(world.least_m) < 0.2
 
 
+def test_each_of_two_robots_takes_half_of_the_gap():
+    rules = ShieldRules()
+    ahead = View(0, 0.0, STILL, (Neighbour(1, 0.36, 0.0, 0.0, 0.0),))
+    fast = Shielded(lambda _view: Twist(2.0, 0.0), rules)(ahead)
+    assert fast.speed_mps == pytest.approx(stoppable_mps((0.36 - 0.16 - 0.02) / 2, rules))
+
+
+def test_a_turn_toward_a_robot_counts_as_done():
+    """At 80 degrees aside nothing is ahead yet; after 0.1 s at 3 rad/s it is."""
+    aside = View(0, 0.0, STILL, (Neighbour(1, 0.20, np.deg2rad(80), 0.0, 0.0),))
+    straight, turning = (
+        Shielded(lambda _view, turn=turn: Twist(0.3, turn))(aside).speed_mps for turn in (0.0, 3.0)
+    )
+    toward = np.cos(np.deg2rad(80) - 0.3)
+    assert turning == pytest.approx(stoppable_mps(0.01, ShieldRules()) / toward)
+    assert turning < straight
+
+
 def test_the_shield_lets_a_robot_turn_and_leave():
     beside = View(0, 0.0, STILL, (Neighbour(1, 0.165, 0.0, 0.0, 0.0),))
     wish = Shielded(lambda _view: Twist(0.2, 1.0))(beside)
