@@ -1,24 +1,16 @@
-"""What was recorded is read again, whatever happened to the file; and recording delays nobody."""
+"""What was recorded is read again, replayed, and refused where it is none."""
 
 import base64
 import json
-import os
-import signal
-import subprocess
 import sys
-import threading
 import time
-import warnings
 from dataclasses import replace
 from pathlib import Path
-from typing import BinaryIO
 
 import numpy as np
 import pytest
 
-from tagmetry.arena import RobotState, WorldState
 from tagmetry.camera import Camera, Image, Source
-from tagmetry.detect import Detection
 from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.record import ImageResult, parse_line
 from tagmetry.record.mcap import (
@@ -28,7 +20,6 @@ from tagmetry.record.mcap import (
     STATES,
     DamagedRecordingWarning,
     Entry,
-    PacketRecord,
     Recorder,
     Replay,
     read_entries,
@@ -39,20 +30,7 @@ from tagmetry.record.mcap.states import parse_state
 
 pytest.importorskip("mcap", reason="recordings need the part arena")
 
-RNG = np.random.default_rng(4)
-IMAGE = Image(RNG.integers(0, 255, (48, 64), dtype=np.uint8), 1 / 3, "capture", 7, "cam")
-ROBOT = RobotState(3, "blue", 0.1, -0.2, 0.3, 0.4, -0.5, np.diag([1.0, 2, 3, 4, 5]), 0.6, True, 2.5)
-STATE = WorldState(2.5, (ROBOT,))
-PACKET = PacketRecord(1.25, 3, "POSE", True, bytes(range(256)), {"x_m": 1.0})
-SEEN = Detection("tag36h11", 5, np.arange(8.0).reshape(4, 2), np.eye(8), 0, 1.0)
-
-
-def entries_of(path: Path, *topics: str) -> list[Entry]:
-    return list(read_entries(path, *topics))
-
-
-def contents_of(path: Path, topic: str) -> list[bytes]:
-    return [entry.content for entry in read_entries(path, topic)]
+from recording_parts import IMAGE, PACKET, RNG, ROBOT, SEEN, STATE, contents_of, entries_of
 
 
 def test_all_that_was_taken_is_read_again(tmp_path: Path) -> None:
@@ -138,231 +116,6 @@ def test_the_official_reader_reads_it(tmp_path: Path) -> None:
     assert told["timestamp"] == {"sec": 0, "nsec": 333333333}
     assert base64.b64decode(told["data"])[:2] == b"\xff\xd8"
     assert summary.statistics.chunk_count >= 2
-
-
-def whole_file(path: Path, pieces: int = 4, each: int = 5) -> list[Entry]:
-    """Write a file of so many pieces, and return its entries."""
-    entries = [Entry("/note", n, n, b'{"n":%d}' % n) for n in range(pieces * each)]
-    with path.open("wb") as file:
-        writer = PieceWriter(file)
-        for start in range(0, len(entries), each):
-            writer.write(entries[start : start + each])
-        writer.finish()
-    return entries
-
-
-def read_damaged(path: Path) -> list[Entry]:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DamagedRecordingWarning)
-        return entries_of(path)
-
-
-def test_a_file_that_is_cut_anywhere_gives_all_whole_pieces(tmp_path: Path) -> None:
-    whole, cut = tmp_path / "whole.mcap", tmp_path / "cut.mcap"
-    entries = whole_file(whole)
-    content = whole.read_bytes()
-    read_before = 0
-    for size in range(8, len(content), 3):
-        cut.write_bytes(content[:size])
-        found = read_damaged(cut)
-        assert found == entries[: len(found)]
-        assert len(found) % 5 == 0
-        assert len(found) >= read_before
-        read_before = len(found)
-    assert read_before == len(entries)
-
-
-def test_a_cut_file_says_so(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    whole_file(path)
-    path.write_bytes(path.read_bytes()[:-1000])
-    with pytest.warns(DamagedRecordingWarning, match="cut off or damaged"):
-        entries_of(path)
-
-
-def test_no_flipped_bit_is_taken_for_the_truth(tmp_path: Path) -> None:
-    whole, flipped = tmp_path / "whole.mcap", tmp_path / "flipped.mcap"
-    entries = whole_file(whole)
-    content = bytearray(whole.read_bytes())
-    lost = 0
-    for place in range(8, len(content), 3):
-        content[place] ^= 1 << place % 8
-        flipped.write_bytes(content)
-        content[place] ^= 1 << place % 8
-        found = read_damaged(flipped)
-        assert all(entry in entries for entry in found)
-        lost += len(found) < len(entries)
-    assert lost > len(content) / 9
-
-
-def test_noise_is_no_recording_and_no_crash(tmp_path: Path) -> None:
-    path = tmp_path / "noise.mcap"
-    head = b"\x89MCAP0\r\n"
-    for size in (0, 1, 9, 100, 3000):
-        for _ in range(20):
-            path.write_bytes(head + b"\x06" + size.to_bytes(8, "little") + RNG.bytes(size))
-            assert read_damaged(path) == []
-    path.write_bytes(head + b"\x06" + (2**60).to_bytes(8, "little"))
-    with pytest.warns(DamagedRecordingWarning, match="cut off or damaged"):
-        assert entries_of(path) == []
-
-
-def test_a_piece_that_says_it_is_huge_is_not_unpacked(tmp_path: Path) -> None:
-    import struct
-
-    import zstandard
-
-    packed = zstandard.ZstdCompressor().compress(bytes(300 * 2**20))
-    chunk = struct.pack("<QQQII", 0, 0, 300 * 2**20, 0, 4) + b"zstd"
-    body = chunk + len(packed).to_bytes(8, "little") + packed
-    path = tmp_path / "bomb.mcap"
-    path.write_bytes(b"\x89MCAP0\r\n\x06" + len(body).to_bytes(8, "little") + body)
-    assert read_damaged(path) == []
-
-
-RUNS = """
-import os, sys, time
-import numpy as np
-from tagmetry.camera import Image
-from tagmetry.record.mcap import Recorder
-pixels = np.random.default_rng(0).integers(0, 255, (48, 64), dtype=np.uint8)
-for line in sys.stdin:
-    run = os.fork()
-    if run:
-        print(run, flush=True)
-        os.waitpid(run, 0)
-        continue
-    with Recorder(line.strip()) as recorder:
-        for n in range(10**9):
-            recorder.image(Image(pixels, time.monotonic(), "arrival", n, "cam"))
-            for k in range(5):
-                recorder.note("/n", time.monotonic(), {"n": 5 * n + k})
-            time.sleep(0.01)
-"""
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="runs are forked and killed")
-@pytest.mark.parametrize(
-    "times", [3, pytest.param(200, marks=pytest.mark.slow)], ids=["few", "many"]
-)
-def test_a_killed_run_loses_less_than_a_second(tmp_path: Path, times: int) -> None:
-    runs = subprocess.Popen(
-        [sys.executable, "-c", RUNS], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    )
-    with runs:
-        paths = [tmp_path / f"{n}.mcap" for n in range(times)]
-        lost_s = [killed(runs, path, RNG.uniform(0.4, 1.0)) for path in paths]
-        runs.kill()
-    print(f"{times} kills: lost median {np.median(lost_s):.2f} s, most {max(lost_s):.2f} s")
-    assert max(lost_s) < 1.0
-
-
-def killed(runs: subprocess.Popen[str], path: Path, after_s: float) -> float:
-    """Kill a run that records, and return how much of its end is missing."""
-    assert runs.stdin is not None
-    assert runs.stdout is not None
-    runs.stdin.write(f"{path}\n")
-    runs.stdin.flush()
-    number = int(runs.stdout.readline())
-    time.sleep(after_s)
-    os.kill(number, signal.SIGKILL)
-    killed_s = time.monotonic()
-    entries = read_damaged(path)
-    notes = [json.loads(entry.content)["n"] for entry in entries if entry.topic == "/n"]
-    assert notes == list(range(len(notes)))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DamagedRecordingWarning)
-        sequences = [image.sequence for image in Replay(path)]
-    assert sequences == list(range(len(sequences)))
-    return killed_s - max((entry.stamped_ns for entry in entries), default=0) / 1e9
-
-
-class SlowPieces:
-    """A disk that takes no piece before it is told to."""
-
-    def __init__(self) -> None:
-        self.may_go_on = threading.Event()
-
-    def write(self, _: list[Entry]) -> None:
-        self.may_go_on.wait(30.0)
-
-    def finish(self) -> None:
-        pass
-
-
-def test_a_slow_disk_delays_nobody_and_drops_the_oldest(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    disk = SlowPieces()
-    monkeypatch.setattr("tagmetry.record.mcap.recorder.PieceWriter", lambda _: disk)
-    with Recorder(tmp_path / "run.mcap") as recorder:
-        recorder.state(STATE)
-        time.sleep(0.5)  # now it writes
-        start_s = time.thread_time()
-        for n in range(100):
-            recorder.image(replace(IMAGE, sequence=n))
-        assert time.thread_time() - start_s < 0.05
-        assert recorder.dropped_count >= 60
-        assert recorder._images[-1][1].sequence == 99
-        disk.may_go_on.set()
-
-
-def test_of_files_nothing_is_dropped(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    with Recorder(path, may_drop=False) as recorder:
-        for n in range(200):
-            recorder.image(replace(IMAGE, sequence=n))
-    assert recorder.dropped_count == 0
-    assert [image.sequence for image in Replay(path)] == list(range(200))
-
-
-class FullDisk:
-    """A file on a disk that is full after so many bytes."""
-
-    def __init__(self, file: BinaryIO, room_bytes: int) -> None:
-        self._file, self._room_bytes = file, room_bytes
-
-    def write(self, content: bytes) -> int:
-        self._room_bytes -= len(content)
-        if self._room_bytes < 0:
-            self._file.write(content[: len(content) // 2])
-            raise OSError(28, "No space left on device")
-        return self._file.write(content)
-
-    def __getattr__(self, name: str) -> object:
-        return getattr(self._file, name)
-
-
-def test_a_full_disk_is_told_and_what_was_written_stays_whole(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    path = tmp_path / "run.mcap"
-    real = PieceWriter
-    monkeypatch.setattr(
-        "tagmetry.record.mcap.recorder.PieceWriter", lambda file: real(FullDisk(file, 3000))
-    )
-    recorder = Recorder(path)
-    recorder.__enter__()
-    end_s = time.monotonic() + 10
-    while recorder.failure is None and time.monotonic() < end_s:
-        recorder.note("/noise", 0.0, {"text": os.urandom(40).hex()})
-        time.sleep(0.005)
-    assert "No space left on device" in str(recorder.failure)
-    with pytest.raises(InputError, match=r"recording to .* ended: No space left on device"):
-        recorder.__exit__(None, None, None)
-    assert path.stat().st_size <= 3000
-    assert all(entry.topic == "/noise" for entry in read_damaged(path))
-
-
-def test_a_disk_that_is_full_from_the_beginning_is_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    real = PieceWriter
-    monkeypatch.setattr(
-        "tagmetry.record.mcap.recorder.PieceWriter", lambda file: real(FullDisk(file, 4))
-    )
-    with pytest.raises(InputError, match="No space left on device"):
-        Recorder(tmp_path / "run.mcap").__enter__()
 
 
 def test_what_json_cannot_hold_is_counted_and_passed_over(tmp_path: Path) -> None:
