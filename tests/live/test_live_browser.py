@@ -106,6 +106,19 @@ def test_the_space_bar_stops_all_robots_and_a_button_releases(
     wait_for_motion(browser, stood)
 
 
+def test_the_address_names_the_room(browser: Chromium) -> None:
+    shown = "[...document.querySelectorAll('.room:not([hidden])')].map((e) => e.id).join()"
+    current = "[...document.querySelectorAll('#rooms a[aria-current]')].map((e) => e.hash).join()"
+    rooms = browser.run("[...document.querySelectorAll('.room')].map((e) => e.id.slice(5))")
+    links = browser.run("[...document.querySelectorAll('#rooms a')].map((e) => e.hash.slice(1))")
+    assert sorted(rooms) == sorted(links)
+    for room in [*rooms, "arena"]:
+        browser.run(f"location.hash = {json.dumps(room)}; true")
+        browser.wait(f"{shown} === 'room-{room}' && {current} === '#{room}'")
+    browser.run("location.hash = 'nowhere'; true")
+    browser.wait(f"{shown} === 'room-arena'")
+
+
 def test_a_click_sends_the_selected_robot(browser: Chromium, page: LivePage) -> None:
     sign_in(browser, page.token)
     release(browser)
@@ -176,10 +189,10 @@ def test_records_from_the_page(browser: Chromium, page: LivePage) -> None:
     says = f"{button}.textContent"
     browser.run(f"{button}.click(); true")
     browser.wait(f"{says} === 'End recording'")
-    browser.wait("document.getElementById('health').textContent.includes('.mcap')")
+    browser.wait("document.getElementById('news').textContent.includes('.mcap')")
     browser.run(f"{button}.click(); true")
     browser.wait(f"{says} === 'Record'")
-    browser.wait("document.querySelectorAll('#recordings a').length >= 1")
+    browser.wait("document.querySelectorAll('#recorded a').length >= 1")
 
 
 def test_names_are_text(browser: Chromium) -> None:

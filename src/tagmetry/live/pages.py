@@ -1,6 +1,7 @@
 """The socket of a page: what it is told, what it asks, and what happens when it is gone."""
 
 import asyncio
+from collections.abc import Sequence
 from itertools import count
 
 from fastapi import WebSocket
@@ -9,6 +10,7 @@ from tagmetry.errors import InputError
 from tagmetry.live.access import Access
 from tagmetry.live.hub import Hub, Slot
 from tagmetry.live.messages import Asked, Refused, Role, Welcome
+from tagmetry.live.rooms.room import Room
 from tagmetry.live.running import Runner
 from tagmetry.live.watch import BEAT_S
 from tagmetry.live.wire import format_message, parse_asked
@@ -22,8 +24,11 @@ _MOST_REFUSALS = 20
 class Pages:
     """Serves every page until it is gone."""
 
-    def __init__(self, access: Access, hub: Hub, runner: Runner) -> None:
+    def __init__(
+        self, access: Access, hub: Hub, runner: Runner, rooms: Sequence[Room] = ()
+    ) -> None:
         self._access, self._hub, self._runner = access, hub, runner
+        self._takers = {kind: take for room in rooms for kind, take in room.takers.items()}
         self._numbers = count(1)
 
     async def serve(self, socket: WebSocket) -> None:
@@ -69,11 +74,19 @@ class Pages:
             if message["type"] == "websocket.disconnect":
                 return
             try:
-                self._runner.ask(page, _asked(message.get("text"), role))
+                self._give(page, _asked(message.get("text"), role))
             except InputError as error:
                 refusals += 1
                 slot.put("Refused", format_message(Refused(str(error))))
         await socket.close(NOT_UNDERSTOOD, "too many messages were refused")
+
+    def _give(self, page: int, asked: Asked) -> None:
+        """Give what a page asks for to its room; the arena takes what no room does."""
+        take = self._takers.get(type(asked))
+        if take is None:
+            self._runner.ask(page, asked)
+        else:
+            take(asked)
 
 
 def _asked(text: str | None, role: Role) -> Asked:

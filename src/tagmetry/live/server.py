@@ -4,18 +4,20 @@ Every route is declared in `ROUTES` with the role that it needs; a test holds th
 """
 
 import asyncio
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from contextlib import asynccontextmanager
 
 from fastapi import FastAPI, Request, Response
 from starlette.requests import ClientDisconnect
 
 from tagmetry.live.access import Access
+from tagmetry.live.door import behind
 from tagmetry.live.guard import Guard
 from tagmetry.live.hub import Hub
 from tagmetry.live.messages import Role
 from tagmetry.live.page import PARTS, Part
 from tagmetry.live.pages import Pages
+from tagmetry.live.rooms.room import Room
 from tagmetry.live.running import Runner
 from tagmetry.live.shelf import Shelf
 
@@ -31,13 +33,14 @@ ROUTES: dict[str, tuple[str, Role | None]] = {  # path: method and role; None: a
 }
 
 
-def create_app(access: Access, hub: Hub, runner: Runner) -> FastAPI:
+def create_app(access: Access, hub: Hub, runner: Runner, rooms: Sequence[Room] = ()) -> FastAPI:
     """Return the server.
 
     Args:
         access: Says who may do what.
         hub: Tells the pages.
-        runner: Does what they ask.
+        runner: Does what they ask of the arena.
+        rooms: Do what they ask of the other rooms.
     """
 
     @asynccontextmanager
@@ -52,9 +55,18 @@ def create_app(access: Access, hub: Hub, runner: Runner) -> FastAPI:
         app.add_api_route(path, _shown(part), methods=["GET"])
     for path, answer in Shelf(access, runner).routes.items():
         app.add_api_route(path, answer, methods=["GET"], response_model=None)
+    for room in rooms:
+        _add(app, access, room)
     app.add_api_route("/sign-in", _sign_in(access), methods=["POST"])
-    app.add_api_websocket_route("/live", Pages(access, hub, runner).serve)
+    app.add_api_websocket_route("/live", Pages(access, hub, runner, rooms).serve)
     return app
+
+
+def _add(app: FastAPI, access: Access, room: Room) -> None:
+    """Let a room answer, each request for those who may ask it."""
+    for path, answer in room.answers.items():
+        method, role = ROUTES[path]
+        app.add_api_route(path, behind(access, role, answer), methods=[method], response_model=None)
 
 
 def _shown(part: Part) -> Callable[[], Response]:

@@ -1,12 +1,14 @@
 """The server in a process or a thread: bounded, without access log, closed within seconds."""
 
 import socket
+from collections.abc import Sequence
 
 import uvicorn
 
 from tagmetry.errors import InputError
 from tagmetry.live.access import Access
 from tagmetry.live.hub import MOST_PAGES, Hub
+from tagmetry.live.rooms.room import Room
 from tagmetry.live.running import Runner
 from tagmetry.live.server import create_app
 from tagmetry.live.wire import MOST_BYTES
@@ -38,10 +40,10 @@ def listening(address: str, port: int) -> socket.socket:
     return opened
 
 
-def server(access: Access, hub: Hub, runner: Runner) -> uvicorn.Server:
+def server(access: Access, hub: Hub, runner: Runner, rooms: Sequence[Room] = ()) -> uvicorn.Server:
     """Return a server; its `run` wants the socket that listens."""
     config = uvicorn.Config(
-        create_app(access, hub, runner),
+        create_app(access, hub, runner, rooms),
         log_level="error",
         access_log=False,
         server_header=False,

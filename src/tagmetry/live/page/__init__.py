@@ -18,7 +18,20 @@ class Part:
 
 
 _KINDS = {".html": "text/html", ".js": "text/javascript", ".css": "text/css"}
-_NAMES = ("app.js", "camera.js", "link.js", "map.js", "table.js", "style.css")
+_NAMES = (
+    "app.js",
+    "camera.js",
+    "door.js",
+    "link.js",
+    "map.js",
+    "news.js",
+    "notice.js",
+    "rooms.js",
+    "rooms/arena.js",
+    "stop.js",
+    "style.css",
+    "table.js",
+)
 
 
 def _part(name: str) -> Part:
