@@ -3,9 +3,10 @@
 The floor stands still, so its exact light is taken once (`twin.rendering.exposed`). Each robot is
 a dark box with a marker on its roof: its outline is filled and its roof mapped on a grid of 6 x 6
 points a pixel, by the homography of the roof's four corners, which are projected through the lens.
-Light and cover are averaged over the pixels, spread by the lens, and laid over the floor. What is
-left out: the lens's bend within a marker, shadows, the robots' motion during the exposure, and that
-the floor's own grain is spread together with the robot's edge.
+Light and cover are averaged over the pixels, spread by the lens, and laid over the floor; the
+sensor is quick as well (`twin.optics.quick_sensor`). What is left out: the lens's bend within a
+marker, shadows, the robots' motion during the exposure, and that the floor's own grain is spread
+together with the robot's edge.
 """
 
 from collections.abc import Sequence
@@ -19,7 +20,7 @@ from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.arrays import AnyPixels, FloatImage
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import MountedMarker, family
-from tagmetry.twin.optics.sensor import developed
+from tagmetry.twin.optics.quick_sensor import quick_development
 from tagmetry.twin.optics.vignetting import gain_map
 from tagmetry.twin.rendering import Shot, exposed
 from tagmetry.twin.rendering.box import Box
@@ -31,6 +32,9 @@ _REACH_PX = 5  # around a robot: its light is spread by the lens
 _BODY = 0.12  # reflectance of the robots' bodies
 _UP = np.array([0.0, 0.0, 1.0])
 _SUBPIXEL_BITS = 8  # of the outline's points
+_ROOF_CORNERS = 4
+
+_Painted = tuple[FloatImage, FloatImage]  # light and cover
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,44 +68,48 @@ class OverheadPictures:
         self._shot = replace(shot, optics=replace(shot.optics, veil=0.0))
         self._light = floor.light
         self._roofs = [_roof(robot) for robot in robots]
-        self._empty = exposed(floor, self._shot)
+        self._p_robot = np.array([np.vstack([one.corners_m, one.body_m]) for one in self._roofs])
+        self._empty = exposed(floor, self._shot) * np.float32(shot.brightness)
         self._gain = gain_map(shot.camera, shot.optics.vignetting)
         self._T_camera_world = shot.path.at(np.zeros(1))[0].inv()
+        self._develop = quick_development(shot.sensor, shot.camera.size_px)
 
     def take(self, Ts_world_robot: RigidTransform, rng: np.random.Generator) -> AnyPixels:
         """Return a picture, shape (height, width), uint8.
 
         Args:
-            Ts_world_robot: Where the robots are.
+            Ts_world_robot: Where the robots are, shape (n,).
             rng: Where the noise comes from.
         """
-        light = self._empty.copy()
-        for roof, T_world_robot in zip(self._roofs, Ts_world_robot, strict=True):
-            self._lay(light, roof, T_world_robot)
-        return developed(light * np.float32(self._shot.brightness), self._shot.sensor, rng)
+        exposure = self._empty.copy()
+        seen_px, lit = self._seen_px(Ts_world_robot), self._lit(Ts_world_robot)
+        for roof, pixels, irradiance in zip(self._roofs, seen_px, lit, strict=True):
+            window = self._window(pixels) if np.isfinite(pixels).all() else None
+            if window:
+                self._lay(exposure, window, _painted(roof, pixels, window), irradiance)
+        return self._develop(exposure, rng)
 
-    def _lay(self, light: FloatImage, roof: _Roof, T_world_robot: RigidTransform) -> None:
-        """Lay a robot over what there is."""
-        body_px = self._seen_px(roof.body_m, T_world_robot)
-        corners_px = self._seen_px(roof.corners_m, T_world_robot)
-        if body_px is None or corners_px is None:
-            return
-        window = self._window(np.concatenate([body_px, corners_px]))
-        if not window:
-            return
-        on_roof = self._light.on(T_world_robot.apply(roof.corners_m.mean(axis=0)), _UP)
-        radiance, cover = _painted(roof, body_px, corners_px, window)
-        gain = self._gain[window.pixels] * np.float32(on_roof)
-        under = light[window.pixels]
+    def _lay(self, exposure: FloatImage, window: Box, painted: _Painted, irradiance: float) -> None:
+        """Lay a robot over what there is in its window."""
+        radiance, cover = painted
+        gain = self._gain[window.pixels] * np.float32(self._shot.brightness * irradiance)
         sigma_px = self._shot.optics.blur_px
-        light[window.pixels] = under * (1 - _spread(cover, sigma_px))
-        light[window.pixels] += gain * _spread(radiance, sigma_px)
+        under = exposure[window.pixels] * (1 - _spread(cover, sigma_px))
+        exposure[window.pixels] = under + gain * _spread(radiance, sigma_px)
 
-    def _seen_px(self, p_robot: Array, T_world_robot: RigidTransform) -> Array | None:
-        """Return pixels, shape (n, 2); None where one is not before the camera."""
-        p_camera = (self._T_camera_world * T_world_robot).apply(p_robot)
+    def _seen_px(self, Ts_world_robot: RigidTransform) -> Array:
+        """Return pixels of the roofs' and bodies' corners, (n, m, 2); NaN behind the camera."""
+        p_world = _placed(Ts_world_robot, self._p_robot)
+        p_camera = np.asarray(self._T_camera_world.apply(p_world.reshape(-1, 3)))
         pixels = np.asarray(self._shot.camera.project(p_camera))
-        return pixels if np.isfinite(pixels).all() and (p_camera[:, 2] > 0).all() else None
+        before = np.where(p_camera[:, 2:] > 0, pixels, np.nan)
+        return before.reshape(*p_world.shape[:2], 2)
+
+    def _lit(self, Ts_world_robot: RigidTransform) -> list[float]:
+        """Return the irradiance of the middles of the roofs."""
+        middles_m = self._p_robot[:, :_ROOF_CORNERS].mean(axis=1, keepdims=True)
+        lit = self._light.on(_placed(Ts_world_robot, middles_m)[:, 0], _UP)
+        return list(map(float, lit))
 
     def _window(self, pixels: Array) -> Box:
         left, top = np.floor(pixels.min(axis=0)).astype(int).tolist()
@@ -110,10 +118,16 @@ class OverheadPictures:
         return Box(left, top, right + 1, bottom + 1).grown(_REACH_PX) & image
 
 
-def _painted(
-    roof: _Roof, body_px: Array, corners_px: Array, window: Box
-) -> tuple[FloatImage, FloatImage]:
+def _placed(Ts_world_robot: RigidTransform, p_robot: Array) -> Array:
+    """Return points of every robot in the world, shape (n, m, 3)."""
+    R_world_robot = Ts_world_robot.rotation.as_matrix()
+    turned = p_robot @ np.swapaxes(R_world_robot, 1, 2)
+    return np.asarray(turned + np.asarray(Ts_world_robot.translation)[:, None])
+
+
+def _painted(roof: _Roof, seen_px: Array, window: Box) -> _Painted:
     """Return the light under an irradiance of 1, and the cover, of a window's pixels."""
+    corners_px, body_px = seen_px[:_ROOF_CORNERS], seen_px[_ROOF_CORNERS:]
     width, height = window.right - window.left, window.bottom - window.top
     size = (_FINE * width, _FINE * height)
     cover = np.zeros((size[1], size[0]), np.float32)
@@ -167,7 +181,8 @@ def _roof(robot: Robot) -> _Roof:
     flat = np.column_stack([_unit_square() * sheet.width_m, np.zeros(4)])
     body = body_thing(robot).sheets
     body_m = np.concatenate([one.T_thing_sheet.apply(one.corners_m) for one in body])
-    return _Roof(cells, to_texel, sheet.T_thing_sheet.apply(flat), body_m)
+    corners_m = np.asarray(sheet.T_thing_sheet.apply(flat))
+    return _Roof(cells, to_texel, corners_m, np.unique(body_m.round(9), axis=0))
 
 
 def body_thing(robot: Robot) -> Thing:
