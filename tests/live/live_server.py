@@ -14,6 +14,7 @@ from websockets.sync.client import ClientConnection, connect
 from tagmetry.live.access import Access
 from tagmetry.live.hub import Hub
 from tagmetry.live.messages import Asked
+from tagmetry.live.rooms.every import opened_rooms
 from tagmetry.live.serving import listening, server
 
 
@@ -90,10 +91,10 @@ class Served:
 @contextmanager
 def served(address: str = "127.0.0.1", port: int = 0) -> Iterator[Served]:
     """Give a server that runs in a thread."""
-    with listening("127.0.0.1", port) as opened:
+    with listening("127.0.0.1", port) as opened, opened_rooms() as rooms:
         port = opened.getsockname()[1]
         access, hub, runner = Access(address, port), Hub(), Remembering()
-        own = server(access, hub, runner)
+        own = server(access, hub, runner, rooms)
         with running(own, opened):
             yield Served(port, access, hub, runner)
 

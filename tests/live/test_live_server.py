@@ -14,6 +14,7 @@ from tagmetry.errors import InputError
 from tagmetry.live.hub import Hub
 from tagmetry.live.messages import CONTRACT, Beat, GoTo, Stop
 from tagmetry.live.page import PARTS
+from tagmetry.live.rooms.every import opened_rooms
 from tagmetry.live.server import ROUTES, create_app
 from tagmetry.live.serving import listening
 from tagmetry.live.wire import format_message
@@ -39,7 +40,8 @@ def far_headers(far: Served) -> dict[str, str]:
 
 
 def test_every_route_of_the_app_is_declared_with_its_role(live: Served) -> None:
-    app = create_app(live.access, Hub(), live.runner)
+    with opened_rooms() as rooms:
+        app = create_app(live.access, Hub(), live.runner, rooms)
     methods = {
         route.path: (*sorted(getattr(route, "methods", None) or ["WEBSOCKET"]),)
         for route in app.routes
@@ -52,7 +54,7 @@ def test_every_route_of_the_app_is_declared_with_its_role(live: Served) -> None:
 def test_a_route_answers_its_method_alone(live: Served, path: str, method: str, wrong: str) -> None:
     status, _, _ = live.ask(wrong, path, None, Origin=live.origin)
     right = wrong == method
-    assert status in ({200, 403} if right else {404, 405})
+    assert status in ({200, 403, 422} if right else {404, 405})  # 422: without its parameters
 
 
 def test_what_anybody_gets_is_the_page_alone(far: Served) -> None:
@@ -60,6 +62,13 @@ def test_what_anybody_gets_is_the_page_alone(far: Served) -> None:
         if method == "GET" and role is None:
             status, _, _ = far.ask("GET", path, **far_headers(far))
             assert status == 200
+
+
+def test_beyond_this_computer_a_room_answers_nobody_without_the_token(far: Served) -> None:
+    for path, (method, role) in ROUTES.items():
+        if method != "WEBSOCKET" and role == "viewer":
+            status, _, body = far.ask(method, path, **far_headers(far))
+            assert (status, body) == (403, b"sign in with the token")
 
 
 @pytest.mark.parametrize("rule", [r for r in CONTRACT if r.sender == "page"], ids=lambda r: r.name)

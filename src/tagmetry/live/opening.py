@@ -10,6 +10,7 @@ import uvicorn
 
 from tagmetry.live.access import Access
 from tagmetry.live.hub import Hub
+from tagmetry.live.rooms.every import opened_rooms
 from tagmetry.live.runner import LiveRunner
 from tagmetry.live.serving import listening, server
 
@@ -63,7 +64,10 @@ def opened_page(
     with listening(address, port) as opened:
         port = opened.getsockname()[1]
         access, hub = Access(address, port), Hub()
-        with LiveRunner(scenario, robots, recordings, hub.give, pictures=pictures) as runner:
+        with (
+            LiveRunner(scenario, robots, recordings, hub.give, pictures=pictures) as runner,
+            opened_rooms() as rooms,
+        ):
             host = f"[{address}]" if ":" in address else address
             url = f"http://{host}:{port}/"
-            yield LivePage(url, access.token, runner, server(access, hub, runner), opened)
+            yield LivePage(url, access.token, runner, server(access, hub, runner, rooms), opened)

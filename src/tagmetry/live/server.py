@@ -29,6 +29,10 @@ ROUTES: dict[str, tuple[str, Role | None]] = {  # path: method and role; None: a
     "/sign-in": ("POST", None),
     "/recordings": ("GET", "operator"),
     "/recordings/{name}": ("GET", "operator"),
+    "/print/choices": ("GET", "viewer"),
+    "/print/preview": ("GET", "viewer"),
+    "/print/sheet.pdf": ("GET", "viewer"),
+    "/print/sheet.svg": ("GET", "viewer"),
     "/live": ("WEBSOCKET", "viewer"),
 }
 

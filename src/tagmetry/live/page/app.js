@@ -5,6 +5,7 @@ import { News } from "./news.js";
 import { Notice } from "./notice.js";
 import { Rooms } from "./rooms.js";
 import { ArenaRoom } from "./rooms/arena.js";
+import { PrintRoom } from "./rooms/print.js";
 import { watchStop } from "./stop.js";
 
 const notice = new Notice(), news = new News();
@@ -18,7 +19,7 @@ const page = {
   notice: (text) => notice.show(text),
   get commands() { return door.commands; },
 };
-const rooms = new Rooms([new ArenaRoom(page)]);
+const rooms = new Rooms([new ArenaRoom(page), new PrintRoom()]);
 let beating = null;
 
 function take(message) {

@@ -1,0 +1,102 @@
+"""The rooms beside the arena in a real browser, each through its controls."""
+
+import json
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from chromium import Chromium, browser_path
+from live_server import Served, served
+
+PICTURES = os.environ.get("LIVE_PICTURES")  # a folder; for the docs
+PHONE, DESK = (390, 844), (1280, 1150)
+
+
+@pytest.fixture(scope="module")
+def live() -> Iterator[Served]:
+    browser_path()
+    with served() as own:
+        yield own
+
+
+@pytest.fixture(scope="module")
+def window(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium]:
+    with Chromium(tmp_path_factory.mktemp("profile"), DESK) as own:
+        yield own
+
+
+def enter(browser: Chromium, live: Served, room: str) -> None:
+    """Open a room as an operator."""
+    browser.resize(*DESK, is_phone=False)
+    browser.open(f"http://{live.host}/#{room}")
+    browser.wait("document.getElementById('connection')?.className === 'live'")
+    if not browser.run("document.getElementById('sign-in').hidden"):
+        put(browser, "token", live.access.token)
+        browser.run("document.getElementById('sign-in').requestSubmit(); true")
+        browser.wait("document.getElementById('connection').textContent.includes('you command')")
+    browser.wait(f"!document.getElementById('room-{room}').hidden")
+
+
+def put(browser: Chromium, id_: str, value: str) -> None:
+    """Type into a control."""
+    element = f"document.getElementById({json.dumps(id_)})"
+    browser.run(f"{element}.value = {json.dumps(value)}; true")
+    for kind in ("input", "change"):
+        browser.run(f"{element}.dispatchEvent(new Event('{kind}', {{ bubbles: true }}))")
+
+
+def fits_a_phone(browser: Chromium, room: str) -> None:
+    """Check a phone's size, in the dark; controls are large enough for fingers, and named."""
+    browser.resize(*PHONE, is_phone=True)
+    dark = [{"name": "prefers-color-scheme", "value": "dark"}]
+    browser.ask("Emulation.setEmulatedMedia", features=dark)
+    photograph(browser, f"{room}-phone")
+    assert browser.run("document.documentElement.scrollWidth") <= PHONE[0]
+    controls = (
+        f"[...document.querySelectorAll('#room-{room} :is(button, input, select, a.button)')]"
+    )
+    small = f"{controls}.filter((e) => e.offsetParent && e.offsetHeight < 38).map((e) => e.id)"
+    assert browser.run(small) == []
+    nameless = f"{controls}.filter((e) => !(e.textContent.trim() || e.labels?.length)).length"
+    assert browser.run(nameless) == 0
+    browser.ask("Emulation.setEmulatedMedia", features=[])
+    browser.resize(*DESK, is_phone=False)
+
+
+def photograph(browser: Chromium, name: str) -> None:
+    if PICTURES:
+        browser.photograph(Path(PICTURES) / f"{name}.png")
+
+
+def test_a_sheet_is_chosen_seen_and_fetched(window: Chromium, live: Served) -> None:
+    enter(window, live, "print")
+    told = "document.getElementById('print-told').textContent"
+    shown = "document.getElementById('print-sheet')"
+    window.wait(f"{told}.includes('tag36h11') && {shown}.naturalWidth > 0")
+    put(window, "print-kind", "charuco")
+    window.wait(f"{told}.includes('ChArUco 7x5') && {shown}.naturalWidth > {shown}.naturalHeight")
+    photograph(window, "print")
+    href = window.run("document.getElementById('print-pdf').href")
+    got = window.run(
+        f"fetch({json.dumps(href)}).then(async (a) => [a.status, (await a.text()).slice(0, 5)])"
+    )
+    assert got == [200, "%PDF-"]
+    window.run("document.querySelector('#print-form [name=square]').value = '90mm'; true")
+    window.run("document.getElementById('print-form').dispatchEvent(new Event('input')); true")
+    window.wait("document.getElementById('print-answer').textContent.includes('largest square')")
+    assert window.run("document.getElementById('print-files').hidden")
+    window.run("document.querySelector('#print-form [name=square]').value = '30mm'; true")
+    window.run("document.getElementById('print-form').dispatchEvent(new Event('input')); true")
+    window.wait(f"{told}.includes('square 30 mm')")
+    fits_a_phone(window, "print")
+
+
+def test_the_space_bar_stops_in_every_room(window: Chromium, live: Served) -> None:
+    enter(window, live, "print")
+    before = len(live.runner.asked)
+    window.run("document.getElementById('print-kind').focus(); true")
+    window.press_space()
+    window.wait("true")
+    asked = [type(one).__name__ for _, one in live.runner.asked[before:]]
+    assert "Stop" in asked
