@@ -33,6 +33,7 @@ from tagmetry.pipeline.arena_twin.scenario import Scenario
 from tagmetry.twin.robots import RobotsPhysics
 
 TICK_S = 0.008
+_PATIENCE_S = 5.0  # of the computer's time: a busy one must not stop a simulated robot
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +91,7 @@ class TwinArena:
         }
         drivers = Drivers(
             {
-                one.robot.id: Guarded(one.controller())
+                one.robot.id: Guarded(one.controller(), _PATIENCE_S)
                 for one in scenario.robots
                 if one.controller is not None and not one.on_board
             }
