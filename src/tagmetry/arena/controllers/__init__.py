@@ -2,10 +2,13 @@
 
 from tagmetry.arena.controllers.course import Arc, Course, Reference, line_loop_line
 from tagmetry.arena.controllers.leader_follower import Spring, SpringFollower
+from tagmetry.arena.controllers.parameters import Parameter, Tunable, parameters_of, tuned
+from tagmetry.arena.controllers.patient import PatientFollower
 from tagmetry.arena.controllers.shield import Shielded, ShieldRules
 from tagmetry.arena.controllers.swarm import Aggregate, Disperse, Formation, Manner
 from tagmetry.arena.controllers.tracking import Gains, PathFollower
 from tagmetry.arena.controllers.view import Controller, View
+from tagmetry.arena.controllers.waypoints import legs_through
 
 __all__ = [
     "Aggregate",
@@ -16,12 +19,18 @@ __all__ = [
     "Formation",
     "Gains",
     "Manner",
+    "Parameter",
     "PathFollower",
+    "PatientFollower",
     "Reference",
     "ShieldRules",
     "Shielded",
     "Spring",
     "SpringFollower",
+    "Tunable",
     "View",
+    "legs_through",
     "line_loop_line",
+    "parameters_of",
+    "tuned",
 ]

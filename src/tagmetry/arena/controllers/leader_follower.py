@@ -12,10 +12,13 @@ to the leader plus a share of the bearing.
 Reference: seed 001, section 2.1 and figures 1 b and 13 (20 cm, largest error 0.042 m).
 """
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from math import cos, hypot, sin
+from typing import Self
 
 from tagmetry.arena.controllers.leader_motion import NeighbourMotion, Seen
+from tagmetry.arena.controllers.parameters import Parameter
 from tagmetry.arena.controllers.view import View
 from tagmetry.arena.drive import STILL, Twist
 
@@ -63,6 +66,22 @@ class SpringFollower:
             self._speed_mps, self._before_s = 0.0, view.time_s
             return STILL
         return self._pulled(view, leader)
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """What can be changed of the spring."""
+        spring = self._spring
+        return (
+            Parameter("length_m", spring.length_m, 0.17, 0.5, "of the spring at rest"),
+            Parameter("stiffness_per_s", spring.stiffness_per_s, 1.0, 12.0, "of the spring"),
+            Parameter("damping", spring.damping, 0.3, 3.0, "of the spring; 1 is critical"),
+        )
+
+    def tuned(self, name: str, value: float) -> Self:
+        """Return it with another spring; it goes on with what it knows."""
+        other = copy(self)
+        other._spring = replace(self._spring, **{name: value})  # noqa: SLF001 - its own class
+        return other
 
     def _pulled(self, view: View, leader: Seen) -> Twist:
         spring, step_s = self._spring, self._step_s(view.time_s)

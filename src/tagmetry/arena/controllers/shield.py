@@ -10,9 +10,11 @@ spot is always free, so a robot can leave.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, inf, pi, sqrt
+from typing import Self
 
+from tagmetry.arena.controllers.parameters import Parameter, parameters_of, tuned
 from tagmetry.arena.controllers.view import Controller, View
 from tagmetry.arena.drive import Twist
 from tagmetry.arena.place import turned_rad
@@ -53,6 +55,18 @@ class Shielded:
     def __call__(self, view: View) -> Twist:
         """Return how to move."""
         return shielded(self.controller(view), view, self.rules)
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The controller's, and the gap that stays free."""
+        gap = Parameter("gap_m", self.rules.gap_m, 0.0, 0.3, "that stays free between two robots")
+        return (*parameters_of(self.controller), gap)
+
+    def tuned(self, name: str, value: float) -> Self:
+        """Return it with one of them changed."""
+        if name == "gap_m":
+            return replace(self, rules=replace(self.rules, gap_m=value))
+        return replace(self, controller=tuned(self.controller, name, value))
 
 
 def shielded(wanted: Twist, view: View, rules: ShieldRules) -> Twist:

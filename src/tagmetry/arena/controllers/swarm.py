@@ -4,9 +4,11 @@ Each rule wishes for a point in the robot's own frame; `driven` is how it goes t
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, sin
+from typing import Self
 
+from tagmetry.arena.controllers.parameters import Parameter
 from tagmetry.arena.controllers.view import View
 from tagmetry.arena.drive import STILL, Twist
 from tagmetry.arena.neighbours import Neighbour
@@ -58,6 +60,17 @@ class Aggregate:
         push_x, push_y = _pushed(view, self.distance_m)
         return driven(x_m + 3 * push_x, y_m + 3 * push_y, self.manner)
 
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """What can be changed."""
+        return (_distance(self.distance_m), _speed(self.manner))
+
+    def tuned(self, name: str, value: float) -> Self:
+        """Return it with one of its parameters changed."""
+        if name == "distance_m":
+            return replace(self, distance_m=value)
+        return replace(self, manner=_at_speed(self.manner, value))
+
 
 @dataclass(frozen=True)
 class Disperse:
@@ -74,6 +87,17 @@ class Disperse:
     def __call__(self, view: View) -> Twist:
         """Return how to move."""
         return driven(*_pushed(view, self.distance_m), self.manner)
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """What can be changed."""
+        return (_distance(self.distance_m), _speed(self.manner))
+
+    def tuned(self, name: str, value: float) -> Self:
+        """Return it with one of its parameters changed."""
+        if name == "distance_m":
+            return replace(self, distance_m=value)
+        return replace(self, manner=_at_speed(self.manner, value))
 
 
 @dataclass(frozen=True)
@@ -112,6 +136,15 @@ class Formation:
         there = Place(_x_m(neighbour), _y_m(neighbour), neighbour.relative_heading_rad)
         return there @ own.seen_from(self.places[neighbour.id])
 
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """What can be changed."""
+        return (_speed(self.manner),)
+
+    def tuned(self, name: str, value: float) -> Self:  # noqa: ARG002 - it has one
+        """Return it with one of its parameters changed."""
+        return replace(self, manner=_at_speed(self.manner, value))
+
 
 def driven(x_m: float, y_m: float, manner: Manner) -> Twist:
     """Return the motion toward a point of the robot's own frame: it turns, then goes."""
@@ -122,6 +155,18 @@ def driven(x_m: float, y_m: float, manner: Manner) -> Twist:
     turn_radps = manner.turn_per_s * bearing_rad
     turn_radps = max(-manner.turn_radps, min(turn_radps, manner.turn_radps))
     return Twist(wish_mps * max(cos(bearing_rad), 0.0), turn_radps)
+
+
+def _distance(distance_m: float) -> Parameter:
+    return Parameter("distance_m", distance_m, 0.18, 1.0, "wanted between two robots' centres")
+
+
+def _speed(manner: Manner) -> Parameter:
+    return Parameter("speed_mps", manner.speed_mps, 0.02, 0.3, "at most")
+
+
+def _at_speed(manner: Manner, speed_mps: float) -> Manner:
+    return replace(manner, speed_mps=speed_mps)
 
 
 def _pushed(view: View, distance_m: float) -> tuple[float, float]:

@@ -12,11 +12,12 @@ Reference: seed 001, section 2.1 (a PD controller; no gains are printed); Y. Kan
 stable tracking control method for an autonomous mobile robot, 1990, for the lateral term.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import copysign, cos, sin
-from typing import Protocol
+from typing import Protocol, Self
 
 from tagmetry.arena.controllers.course import Reference
+from tagmetry.arena.controllers.parameters import Parameter
 from tagmetry.arena.controllers.view import View
 from tagmetry.arena.drive import STILL, Twist
 from tagmetry.arena.place import Place
@@ -63,6 +64,19 @@ class PathFollower:
         if view.place is None:
             return STILL
         return toward(self.path.at(view.time_s), view.place, view.twist, self.gains)
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """What can be changed of its gains."""
+        ahead, aside = self.gains.ahead_per_s, self.gains.aside_per_m2
+        return (
+            Parameter("ahead_per_s", ahead, 0.2, 4.0, "pull along the path"),
+            Parameter("aside_per_m2", aside, 0.0, 60.0, "pull to the path from beside it"),
+        )
+
+    def tuned(self, name: str, value: float) -> Self:
+        """Return it with one of these gains changed."""
+        return replace(self, gains=replace(self.gains, **{name: value}))
 
 
 def toward(wanted: Reference, place: Place, moving: Twist, gains: Gains) -> Twist:
