@@ -198,8 +198,8 @@ def test_records_from_the_page(browser: Chromium, page: LivePage) -> None:
 def test_names_are_text(browser: Chromium) -> None:
     name = "<img src=x onerror=\"document.body.dataset.broken='yes'\">"
     robot = LiveRobot(
-        7, name, 0.0, 0.0, 0.0, 0.0, 0.08, (0.001, 0.001, 0.0), 0.0, True, True, name, None, None,
-        None, 0.0, None, (),
+        7, name, 0.0, 0.0, 0.0, 0.0, 0.08, (0.001, 0.001, 0.0), 0.0, True, True, name, "own", (),
+        None, None, None, 0.0, None, (),
     )  # fmt: skip
     with served() as live:
         live.hub.give(World(1.0, (robot,), (name,), True, name))

@@ -15,10 +15,13 @@ from tagmetry.live.messages import (
     Asked,
     Beat,
     ChooseScenario,
+    FollowPath,
     GoTo,
+    Halt,
     LiveRobot,
     Release,
     Resume,
+    SetParameter,
     StartRecording,
     Stop,
     StopRecording,
@@ -29,6 +32,7 @@ from tagmetry.live.wire import MOST_BYTES, format_message, parse_asked
 
 ASKED = [
     Beat(), Stop(), Stop("a person"), Release(), GoTo(3, -0.5, 0.25), Resume(3),
+    FollowPath(3, ((0.0, 0.5), (-1.0, 0.25))), Halt(3), SetParameter("gap_m", 0.1),
     ChooseScenario("disperse", 5), StartRecording(), StopRecording(),
 ]  # fmt: skip
 
@@ -40,12 +44,13 @@ def test_every_message_is_declared_once_with_its_sender() -> None:
     assert declared == expected
 
 
-def test_all_that_a_page_may_ask_needs_the_operator() -> None:
-    assert {rule.role for rule in CONTRACT if rule.sender == "page"} == {"operator"}
+def test_all_that_a_page_may_ask_needs_the_operator_but_a_stop() -> None:
+    free = {rule.message for rule in CONTRACT if rule.sender == "page" and rule.role == "viewer"}
+    assert free == {Stop}
 
 
 def test_what_lets_robots_move_is_driving() -> None:
-    assert set(DRIVING) == {Release, GoTo, Resume, ChooseScenario}
+    assert set(DRIVING) == {Release, GoTo, FollowPath, Resume, SetParameter, ChooseScenario}
 
 
 @pytest.mark.parametrize("asked", ASKED, ids=lambda one: type(one).__name__)
@@ -54,7 +59,10 @@ def test_what_a_page_asks_survives_its_way(asked: Asked) -> None:
 
 
 @pytest.mark.parametrize("asked", ASKED, ids=lambda one: type(one).__name__)
-def test_a_viewer_is_refused_whatever_it_asks(asked: Asked) -> None:
+def test_a_viewer_is_refused_whatever_it_asks_but_a_stop(asked: Asked) -> None:
+    if isinstance(asked, Stop):
+        assert parse_asked(format_message(asked), "viewer") == asked
+        return
     with pytest.raises(InputError, match="needs the operator's role"):
         parse_asked(format_message(asked), "viewer")
 
@@ -62,7 +70,7 @@ def test_a_viewer_is_refused_whatever_it_asks(asked: Asked) -> None:
 def test_what_the_server_tells_is_plain_json() -> None:
     robot = LiveRobot(
         1, "<img onerror>", 1.0, float("nan"), 0.5, 0.1, 0.08, (1.0, 0.5, float("inf")), 0.0,
-        True, False, "", None, (1.0, 2.0, 3.0), None, 0.0, None, (2, 3),
+        True, False, "", "own", (), (1.0, 2.0, 3.0), (0.5, -0.5), None, 0.0, None, (2, 3),
     )  # fmt: skip
     told = json.loads(format_message(World(2.5, (robot,), ("b",), False, "")))
     assert told["type"] == "World"
@@ -85,6 +93,10 @@ def test_what_the_server_tells_is_plain_json() -> None:
         ('{"type": "GoTo", "robot_id": "1", "x_m": 0, "y_m": 0}', "robot_id"),
         ('{"type": "GoTo", "robot_id": 1, "x_m": NaN, "y_m": 0}', "JSON object"),
         ('{"type": "GoTo", "robot_id": 1, "x_m": 1e999, "y_m": 0}', "x_m"),
+        ('{"type": "FollowPath", "robot_id": 1, "points_m": [[0]]}', "points_m"),
+        ('{"type": "FollowPath", "robot_id": 1, "points_m": [[0, null]]}', "points_m"),
+        ('{"type": "FollowPath", "robot_id": 1, "points_m": 3}', "points_m"),
+        ('{"type": "SetParameter", "name": "gap_m", "value": "x"}', "value"),
         ('{"type": "Beat", "more": 1}', "more"),
         ('{"type": "Stop", "why": "' + 200 * "x" + '"}', "why"),
         ('{"type": "Stop", "why": "' + MOST_BYTES * "x" + '"}', "at most 1024 bytes"),

@@ -15,13 +15,19 @@ from tagmetry.arena.drive import STILL, Twist
 from tagmetry.arena.place import Place
 from tagmetry.errors import InputError
 from tagmetry.live import watch as watch_module
+from tagmetry.live.errands import toward_goal
 from tagmetry.live.messages import (
+    Asked,
     Beat,
     ChooseScenario,
+    FollowPath,
     GoTo,
+    Halt,
     Health,
     Release,
     Resume,
+    SetParameter,
+    Stage,
     StartRecording,
     Stop,
     StopRecording,
@@ -31,12 +37,13 @@ from tagmetry.live.messages import (
 from tagmetry.live.orders import Order, Orders
 from tagmetry.live.runner import LiveRunner
 from tagmetry.live.stage import performance, steerable
-from tagmetry.live.steered import Steered, toward_goal
+from tagmetry.live.steered import Steered
 from tagmetry.live.told import ellipse_of, told_markers
 from tagmetry.live.watch import BEAT_S, PATIENCE_S, Watch
 from tagmetry.pipeline.arena_twin import TwinArena
 from tagmetry.pipeline.arena_twin.ready import ready_scenario
 from tagmetry.record.mcap import STATES, read_entries
+from tagmetry.twin.robots import RobotDesign
 
 ROBOTS, PAGE, OTHER = 2, 1, 2
 
@@ -88,9 +95,55 @@ def test_stops_and_releases(live: Running) -> None:
 def test_a_robot_goes_where_it_is_sent_and_back_to_its_controller(live: Running) -> None:
     live.runner.ask(PAGE, GoTo(0, -0.65, 0.05))
     live.until(lambda world: near(world, 0, (-0.65, 0.05)), 60)
-    assert live.world.robots[0].goal_m == (-0.65, 0.05)
+    assert live.world.robots[0].path_m == ((-0.65, 0.05),)
     live.runner.ask(PAGE, Resume(0))
-    live.until(lambda world: world.robots[0].goal_m is None)
+    live.until(lambda world: world.robots[0].task == "own")
+
+
+def test_a_robot_walks_through_points_and_others_go_on(live: Running) -> None:
+    points = ((-0.6, 0.3), (-0.3, 0.3))
+    live.runner.ask(PAGE, FollowPath(0, points))
+    live.until(lambda world: near(world, 0, points[-1]), 60)
+    assert (live.world.robots[0].task, live.world.robots[0].path_m) == ("walk", points)
+    assert live.world.robots[1].task == "own"
+
+
+def test_one_robot_is_halted_and_resumed(live: Running) -> None:
+    live.until(lambda world: world.robots[0].speed_mps > 0.05, 60)
+    live.runner.ask(PAGE, Halt(0))
+    live.until(lambda world: world.robots[0].task == "wait" and stands(world))
+    assert not live.world.is_stopped
+    live.runner.ask(PAGE, Resume(0))
+    live.until(lambda world: world.robots[0].speed_mps > 0.05, 60)
+
+
+def stands(world: World) -> bool:
+    return all(abs(one.speed_mps) < 0.01 for one in world.robots)
+
+
+def test_wheels_turn_as_the_robot_moves(live: Running) -> None:
+    live.until(lambda world: world.robots[0].speed_mps > 0.15, 60)
+    one, design = live.world.robots[0], RobotDesign()
+    assert one.wheels_radps is not None
+    rolled_mps = design.drive.wheel_radius_m * sum(one.wheels_radps) / 2
+    assert abs(rolled_mps - one.speed_mps) < 0.05
+
+
+def test_a_parameter_is_set_and_told(live: Running) -> None:
+    live.runner.ask(PAGE, SetParameter("length_m", 0.3))
+    live.until(lambda _: parameters(live)["length_m"] == 0.3)
+    live.until(lambda world: apart_m(world) > 0.28, 60)
+
+
+def parameters(live: Running) -> dict[str, float]:
+    stage = live.newest["Stage"]
+    assert isinstance(stage, Stage)
+    return {one.name: one.value for one in stage.parameters}
+
+
+def apart_m(world: World) -> float:
+    one, other = world.robots
+    return hypot(one.x_m - other.x_m, one.y_m - other.y_m)
 
 
 def near(world: World, robot: int, goal_m: tuple[float, float]) -> bool:
@@ -103,6 +156,13 @@ def near(world: World, robot: int, goal_m: tuple[float, float]) -> bool:
     [
         (GoTo(99, 0.0, 0.0), "there is no robot 99"),
         (GoTo(0, 50.0, 0.0), "a place on the floor"),
+        (FollowPath(0, ((0.0, 0.0), (0.0, 0.9))), "a place on the floor"),
+        (FollowPath(0, ()), "1 to 40 points, got 0"),
+        (FollowPath(0, 41 * ((0.0, 0.0),)), "1 to 40 points, got 41"),
+        (FollowPath(9, ((0.0, 0.0),)), "there is no robot 9"),
+        (Halt(9), "there is no robot 9"),
+        (SetParameter("fly", 1.0), "there is no parameter 'fly'; there are ahead_per_s"),
+        (SetParameter("length_m", 5.0), "length_m is 0.17 to 0.5, got 5"),
         (ChooseScenario("fly", 2), "there is no scenario 'fly'"),
         (ChooseScenario("disperse", 0), "1 to 100 robots"),
         (ChooseScenario("disperse", 10**9), "1 to 100 robots"),
@@ -110,7 +170,7 @@ def near(world: World, robot: int, goal_m: tuple[float, float]) -> bool:
     ids=str,
 )
 def test_what_cannot_be_done_is_told_and_all_goes_on(
-    live: Running, asked: GoTo | ChooseScenario, told: str
+    live: Running, asked: Asked, told: str
 ) -> None:
     live.runner.ask(PAGE, asked)
     live.until(lambda _: told in live.health.notice)

@@ -13,6 +13,7 @@ from tagmetry.live.rates import Rate
 from tagmetry.live.recording import Recordings
 from tagmetry.live.stage import Performance
 from tagmetry.live.told import told_markers, told_world
+from tagmetry.live.told_stage import told_stage
 from tagmetry.pipeline.arena_twin import Moment
 
 _WORLD_S, _HEALTH_S = 1 / 20, 0.5
@@ -55,6 +56,10 @@ class Feed:
         if time.monotonic() - self._world_s >= step_s:
             self._world_s = time.monotonic()
             self._give(told_world(moment, show.arena.scenario, show.steered, why))
+
+    def stage(self, show: Performance) -> None:
+        """Tell what robots are among."""
+        self._give(told_stage(show))
 
     def picture(self, look: Look, pixels: AnyPixels, show: Performance) -> None:
         """Tell what the camera sees, unless many pages were told just now."""

@@ -70,7 +70,7 @@ class Hub:
         if len(self._slots) >= MOST_PAGES:
             raise InputError(f"{MOST_PAGES} pages are connected already")
         slot = Slot()
-        for kind, text in self._last.items():
+        for kind, text in dict(self._last).items():
             slot.put(kind, text)
         self._slots.add(slot)
         return slot
@@ -80,9 +80,13 @@ class Hub:
         self._slots.discard(slot)
 
     def give(self, message: Told) -> None:
-        """Tell all pages; from any thread, and returns at once."""
+        """Tell all pages; from any thread, and returns at once.
+
+        What is told while the server does not run yet, its first page will find.
+        """
         loop, text = self._loop, format_message(message)
         if loop is None:
+            self._last[type(message).__name__] = text
             return
         try:
             loop.call_soon_threadsafe(self._spread, type(message).__name__, text)

@@ -9,6 +9,9 @@ from typing import Literal
 
 Sender = Literal["server", "page"]
 Role = Literal["viewer", "operator"]
+Task = Literal["own", "visit", "walk", "wait"]
+
+MOST_POINTS = 40  # of a path
 
 
 @dataclass(frozen=True)
@@ -29,8 +32,11 @@ class LiveRobot:
         is_seen: The newest image shows it.
         is_stopped: It has to stand still.
         why: The reasons, in words.
-        goal_m: (x, y) of where a person sent it; None while its controller drives.
+        task: "own" while its controller drives; else what a person asked: to visit a place, to walk
+            a path, to wait.
+        path_m: (x, y) of the way points that a person gave, the goal last; none otherwise.
         odometry: (x, y, heading) as its wheels say, in its own frame; None before it told.
+        wheels_radps: How fast its left and its right wheel turn, by its encoders; None before.
         battery_v: As it told last; None before.
         loss: Share of its packets that did not arrive.
         round_trip_s: To the host and back; None before it was measured.
@@ -49,8 +55,10 @@ class LiveRobot:
     is_seen: bool
     is_stopped: bool
     why: str
-    goal_m: tuple[float, float] | None
+    task: Task
+    path_m: tuple[tuple[float, float], ...]
     odometry: tuple[float, float, float] | None
+    wheels_radps: tuple[float, float] | None
     battery_v: float | None
     loss: float
     round_trip_s: float | None
@@ -106,6 +114,46 @@ class World:
     missing: tuple[str, ...]
     is_stopped: bool
     why: str
+
+
+@dataclass(frozen=True)
+class LiveParameter:
+    """A number of the controllers that can be changed.
+
+    Attributes:
+        name: With its unit.
+        value: As it is set.
+        least: That can be set.
+        most: That can be set.
+        meaning: In words.
+    """
+
+    name: str
+    value: float
+    least: float
+    most: float
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What robots are among, and what can be set; told when it changes.
+
+    Attributes:
+        scenario: What runs.
+        reach_m: Of the robots' sensor for neighbours, from centre to centre.
+        fence_m: (x, y) of the corners that robots stay within; none where there is no fence.
+        discs: Virtual obstacles: x, y and radius, m.
+        walls: Virtual obstacles: x and y of both ends, m.
+        parameters: Of the controllers.
+    """
+
+    scenario: str
+    reach_m: float
+    fence_m: tuple[tuple[float, float], ...]
+    discs: tuple[tuple[float, float, float], ...]
+    walls: tuple[tuple[float, float, float, float], ...]
+    parameters: tuple[LiveParameter, ...]
 
 
 @dataclass(frozen=True)
@@ -172,7 +220,7 @@ class Beat:
 
 @dataclass(frozen=True)
 class Stop:
-    """Stop all robots, and keep them stopped.
+    """Stop all robots, and keep them stopped; who may look may stop.
 
     Attributes:
         why: Who or what asks for it.
@@ -202,14 +250,51 @@ class GoTo:
 
 
 @dataclass(frozen=True)
-class Resume:
-    """Give a robot that was sent somewhere back to its controller.
+class FollowPath:
+    """Send a robot through points; it stays at the last until it is resumed.
+
+    Attributes:
+        robot_id: Which.
+        points_m: (x, y) in the world, 1 to 40 of them.
+    """
+
+    robot_id: int
+    points_m: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class Halt:
+    """Let one robot stand still until it is resumed.
 
     Attributes:
         robot_id: Which.
     """
 
     robot_id: int
+
+
+@dataclass(frozen=True)
+class Resume:
+    """Give a robot that was sent somewhere, or halted, back to its controller.
+
+    Attributes:
+        robot_id: Which.
+    """
+
+    robot_id: int
+
+
+@dataclass(frozen=True)
+class SetParameter:
+    """Change a number of all controllers that have it.
+
+    Attributes:
+        name: One of those that the stage lists.
+        value: Within its range.
+    """
+
+    name: str
+    value: float
 
 
 @dataclass(frozen=True)
@@ -235,10 +320,23 @@ class StopRecording:
     """End the recording."""
 
 
-Told = Welcome | World | Picture | Health | Refused
-Asked = Beat | Stop | Release | GoTo | Resume | ChooseScenario | StartRecording | StopRecording
+Told = Welcome | World | Stage | Picture | Health | Refused
+Asked = (
+    Beat
+    | Stop
+    | Release
+    | GoTo
+    | FollowPath
+    | Halt
+    | Resume
+    | SetParameter
+    | ChooseScenario
+    | StartRecording
+    | StopRecording
+)
 
-DRIVING = (Release, GoTo, Resume, ChooseScenario)  # who sends one of these drives from then on
+# who sends one of these drives from then on
+DRIVING = (Release, GoTo, FollowPath, Resume, SetParameter, ChooseScenario)
 
 
 @dataclass(frozen=True)
@@ -264,14 +362,18 @@ class Rule:
 CONTRACT = (
     Rule(Welcome, "server", "viewer"),
     Rule(World, "server", "viewer"),
+    Rule(Stage, "server", "viewer"),
     Rule(Picture, "server", "viewer"),
     Rule(Health, "server", "viewer"),
     Rule(Refused, "server", "viewer"),
     Rule(Beat, "page", "operator"),
-    Rule(Stop, "page", "operator"),
+    Rule(Stop, "page", "viewer"),  # stopping is always safe
     Rule(Release, "page", "operator"),
     Rule(GoTo, "page", "operator"),
+    Rule(FollowPath, "page", "operator"),
+    Rule(Halt, "page", "operator"),
     Rule(Resume, "page", "operator"),
+    Rule(SetParameter, "page", "operator"),
     Rule(ChooseScenario, "page", "operator"),
     Rule(StartRecording, "page", "operator"),
     Rule(StopRecording, "page", "operator"),

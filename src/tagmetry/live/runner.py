@@ -15,6 +15,7 @@ from typing import Self
 from tagmetry.camera import Image
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
+from tagmetry.live.commands import command
 from tagmetry.live.eye import Look
 from tagmetry.live.feed import Feed
 from tagmetry.live.messages import (
@@ -22,9 +23,12 @@ from tagmetry.live.messages import (
     Asked,
     Beat,
     ChooseScenario,
+    FollowPath,
     GoTo,
+    Halt,
     Release,
     Resume,
+    SetParameter,
     StartRecording,
     Stop,
     StopRecording,
@@ -171,10 +175,11 @@ class LiveRunner:
             case Release():
                 self._why = None
                 self._show.arena.release()
-            case GoTo(robot_id, x_m, y_m):
-                self._show.send(robot_id, (x_m, y_m))
-            case Resume(robot_id):
-                self._show.send(robot_id, None)
+            case GoTo() | FollowPath() | Halt() | Resume():
+                command(self._show.steered, order.asked)
+            case SetParameter():
+                command(self._show.steered, order.asked)
+                self._feed.stage(self._show)
             case ChooseScenario(name, robots):
                 self._change(name, robots)
             case StartRecording() | StopRecording():
@@ -202,4 +207,5 @@ class LiveRunner:
             self._feed.picture(look, pixels, show)
 
         show = performance(name, robots, give if self._pictures else None)
+        self._feed.stage(show)
         return show

@@ -2,19 +2,16 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from math import isfinite
 
 import numpy as np
 
 from tagmetry.arena import Roster
 from tagmetry.arena.controllers import ShieldRules
-from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.live.eye import Look, Painter, WatchedEye
 from tagmetry.live.steered import Steered
 from tagmetry.pipeline.arena_twin import CornerEye, Scenario, TwinArena, TwinRobot
 from tagmetry.pipeline.arena_twin.ready import ready_scenario
-from tagmetry.pipeline.arena_twin.ready.stage import FLOOR_HALF_M
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,18 +33,6 @@ class Performance:
     roster: Roster
     eye: WatchedEye
     painter: Painter | None
-
-    def send(self, robot_id: int, goal_m: tuple[float, float] | None) -> None:
-        """Send a robot to a place on the floor, or give it back to its controller when None.
-
-        Raises:
-            InputError: There is no such robot, or the place is not on the floor.
-        """
-        if robot_id not in self.steered:
-            raise InputError(f"there is no robot {robot_id}; there are {list(self.steered)}")
-        if goal_m is not None and not _is_on_floor(goal_m):
-            raise InputError(f"expected a place on the floor, within {FLOOR_HALF_M}, got {goal_m}")
-        self.steered[robot_id].goal_m = goal_m
 
     def close(self) -> None:
         """End its threads."""
@@ -88,8 +73,3 @@ def steerable(scenario: Scenario) -> tuple[Scenario, Mapping[int, Steered]]:
 
 def _driven(twin: TwinRobot, steered: Steered) -> TwinRobot:
     return replace(twin, controller=lambda: steered)
-
-
-def _is_on_floor(goal_m: tuple[float, float]) -> bool:
-    pairs = zip(goal_m, FLOOR_HALF_M, strict=True)
-    return all(isfinite(at_m) and abs(at_m) <= half_m for at_m, half_m in pairs)

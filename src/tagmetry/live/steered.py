@@ -1,18 +1,26 @@
-"""A robot's own controller, until a person sends the robot somewhere else.
+"""A robot's own controller, until a person sends the robot on an errand.
 
 Time in which a controller is not asked, because its robot is stopped or sent away, does not pass
 for it: a leader whose course is timed goes on where it was, and does not run after its timetable.
 """
 
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from math import atan2, cos, hypot
 
-from tagmetry.arena.controllers import Controller, ShieldRules, View
+from tagmetry.arena.controllers import (
+    Controller,
+    Parameter,
+    Shielded,
+    ShieldRules,
+    View,
+    parameters_of,
+    tuned,
+)
 from tagmetry.arena.controllers.shield import shielded
 from tagmetry.arena.drive import STILL, Twist
-from tagmetry.arena.place import turned_rad
+from tagmetry.arena.safety import Fence
+from tagmetry.live.errands import Errand
 
-_ARRIVED_M, _TOP_MPS, _NEARING_PER_S, _TURN_PER_S = 0.02, 0.25, 1.5, 3.0
 _PAUSE_S = 0.2  # a controller that was not asked for longer was paused
 
 
@@ -20,22 +28,42 @@ class Steered:
     """A controller that a person can overrule.
 
     Attributes:
-        goal_m: (x, y) of where to go; None while the robot's own controller drives.
+        errand: What to do instead; None while the robot's own controller drives.
     """
 
     def __init__(self, controller: Controller | None, rules: ShieldRules) -> None:
         """Take the robot's own controller, if it has one, and how it keeps away from others."""
-        self.goal_m: tuple[float, float] | None = None
+        self.errand: Errand | None = None
         self._controller, self._rules = controller, rules
         self._asked_s: float | None = None
         self._paused_s = 0.0
 
     def __call__(self, view: View) -> Twist:
         """Return how to move."""
-        goal_m = self.goal_m
-        if goal_m is not None:
-            return shielded(toward_goal(view, goal_m), view, self._rules)
+        errand = self.errand
+        if errand is not None:
+            return shielded(errand(view), view, self._rules)
         return self._controller(self._without_pauses(view)) if self._controller else STILL
+
+    @property
+    def fence(self) -> Fence | None:
+        """What the robot's own controller stays within, if it says so."""
+        own = self._controller
+        return own.rules.fence if isinstance(own, Shielded) else None
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """What can be changed of the robot's own controller."""
+        return parameters_of(self._controller)
+
+    def tune(self, name: str, value: float) -> None:
+        """Change a parameter, if the robot's own controller has it.
+
+        Raises:
+            InputError: The value is out of its range.
+        """
+        if self._controller is not None:
+            self._controller = tuned(self._controller, name, value)
 
     def _without_pauses(self, view: View) -> View:
         """Return the view at the controller's own time."""
@@ -47,14 +75,10 @@ class Steered:
         return replace(view, time_s=view.time_s - self._paused_s, sensed_s=sensed_s)
 
 
-def toward_goal(view: View, goal_m: tuple[float, float]) -> Twist:
-    """Return the motion that turns a robot to a place (x, y) and brings it there."""
-    if view.place is None:
-        return STILL
-    x_m, y_m = goal_m[0] - view.place.x_m, goal_m[1] - view.place.y_m
-    distance_m = hypot(x_m, y_m)
-    if distance_m < _ARRIVED_M:
-        return STILL
-    off_rad = turned_rad(atan2(y_m, x_m) - view.place.heading_rad)
-    speed_mps = min(_TOP_MPS, _NEARING_PER_S * distance_m) * max(cos(off_rad), 0.0)
-    return Twist(speed_mps, _TURN_PER_S * off_rad)
+def parameters_by_name(steered: Iterable[Steered]) -> Mapping[str, Parameter]:
+    """Return what can be changed of robots, each name as the first robot has it."""
+    known: dict[str, Parameter] = {}
+    for one in steered:
+        for parameter in one.parameters:
+            known.setdefault(parameter.name, parameter)
+    return known

@@ -5,12 +5,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from tagmetry.arena import Robot, RobotState, Roster
+from tagmetry.arena.drive import Drive, Twist
 from tagmetry.detect import Detection
 from tagmetry.geometry import Array
+from tagmetry.link import Odometry
+from tagmetry.live.errands import Errand
 from tagmetry.live.messages import LiveMarker, LiveRobot, World
 from tagmetry.live.steered import Steered
 from tagmetry.markers.bodies import MarkerKey
-from tagmetry.pipeline.arena_twin import Moment, Scenario
+from tagmetry.pipeline.arena_twin import Moment, Scenario, TwinRobot
 
 _POINTER_M = 0.12  # of the line that shows a heading in the picture
 
@@ -27,7 +30,7 @@ def told_world(
         why: Why the stop for all is pressed; None while it is not.
     """
     robots = tuple(
-        _robot(state, moment, scenario, steered[state.id].goal_m)
+        _robot(state, moment, scenario.by_id[state.id], steered[state.id].errand)
         for state in moment.turn.step.world
     )
     seen = {one.id for one in robots}
@@ -73,13 +76,10 @@ def _marker(corners_px: Array, robot: Robot) -> LiveMarker:
     return LiveMarker(robot.id, corners, (x_px, y_px))
 
 
-def _robot(
-    state: RobotState, moment: Moment, scenario: Scenario, goal_m: tuple[float, float] | None
-) -> LiveRobot:
+def _robot(state: RobotState, moment: Moment, twin: TwinRobot, errand: Errand | None) -> LiveRobot:
     decision = next(one for one in moment.turn.decisions if one.robot_id == state.id)
     link = next(one for one in moment.links if one.robot_id == state.id)
     told = next((one for one in moment.turn.told if one.robot_id == state.id), None)
-    wheels = moment.odometry.get(state.id)
     return LiveRobot(
         state.id,
         state.name,
@@ -87,16 +87,27 @@ def _robot(
         state.y_m,
         state.heading_rad,
         state.speed_mps,
-        scenario.by_id[state.id].robot.radius_m,
+        twin.robot.radius_m,
         ellipse_of(state.covariance[:2, :2]),
         state.age_s,
         state.seen,
         decision.must_stop,
         decision.told,
-        goal_m,
-        None if wheels is None else (wheels.x_m, wheels.y_m, wheels.heading_rad),
+        "own" if errand is None else errand.task,
+        () if errand is None else errand.path_m,
+        *_by_wheels(moment.odometry.get(state.id), twin.design.drive),
         moment.readings.get(state.id, {}).get("battery_v"),
         max(link.loss_from_robot, link.loss_to_robot),
         link.round_trip_s,
         tuple(one.id for one in told.neighbours) if told is not None else (),
     )
+
+
+def _by_wheels(
+    said: Odometry | None, drive: Drive
+) -> tuple[tuple[float, float, float] | None, tuple[float, float] | None]:
+    """Return where the wheels say that a robot is, and how fast they turn."""
+    if said is None:
+        return None, None
+    twist = Twist(said.forward_mps, said.turn_radps)
+    return (said.x_m, said.y_m, said.heading_rad), drive.wheel_speeds_radps(twist)

@@ -29,6 +29,7 @@ export class Door {
     $("connection").textContent = texts[state];
     $("connection").className = this.isLive ? "live" : "lost";
     if (state === "sign in") $("sign-in").hidden = false;
+    $("stop").disabled = !this.isLive; // who may look may stop
     this.unlock();
   }
 

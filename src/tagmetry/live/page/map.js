@@ -135,15 +135,15 @@ export class ArenaMap {
   }
 
   drawGoal(pen, at, color, one, x, y) {
-    if (!one.goal_m) return;
-    const [gx, gy] = at(...one.goal_m);
+    if (!one.path_m.length) return;
     pen.strokeStyle = color("--accent");
     pen.setLineDash([3, 4]);
     pen.beginPath();
-    pen.moveTo(x, y);
-    pen.lineTo(gx, gy);
+    if (one.task === "visit") pen.moveTo(x, y);
+    for (const point of one.path_m) pen.lineTo(...at(...point));
     pen.stroke();
     pen.setLineDash([]);
+    const [gx, gy] = at(...one.path_m.at(-1));
     pen.strokeRect(gx - 4, gy - 4, 8, 8);
   }
 }

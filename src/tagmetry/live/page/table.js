@@ -51,7 +51,8 @@ export class RobotTable {
 function stateOf(one) {
   if (one.is_stopped) return [`stopped: ${one.why}`, "bad"];
   if (!one.is_seen) return ["not seen", "warn"];
-  return [one.goal_m ? "sent by hand" : "drives", "good"];
+  const tasks = { own: "drives", visit: "sent by hand", walk: "on a path", wait: "waits" };
+  return [tasks[one.task], one.task === "wait" ? "warn" : "good"];
 }
 
 function number(value, digits) {

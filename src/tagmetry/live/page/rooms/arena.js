@@ -108,7 +108,7 @@ export class ArenaRoom {
     const one = this.world?.robots.find((robot) => robot.id === this.selected);
     const { commands } = this.page;
     $("map").classList.toggle("armed", Boolean(one) && commands);
-    $("resume").disabled = !commands || !one?.goal_m;
+    $("resume").disabled = !commands || !one || one.task === "own";
     $("selected").textContent = one ? told(one, commands)
       : "Select a robot on the map or in the table; then click where it shall go.";
   }
