@@ -67,12 +67,20 @@ def release(browser: Chromium) -> None:
         browser.wait("document.body.dataset.stopped === 'false'")
 
 
-def test_a_viewer_sees_robots_move_and_cannot_command(browser: Chromium) -> None:
+def test_a_viewer_sees_robots_move_can_stop_them_and_nothing_else(
+    browser: Chromium, page: LivePage
+) -> None:
     browser.wait("document.querySelectorAll('#table tr').length === 12")
-    assert browser.run("document.getElementById('stop').disabled")
     before = places(browser)
     browser.wait(f"document.body.dataset.places !== {json.dumps(text_of(browser))}")
     wait_for_motion(browser, before)
+    enabled = browser.run("document.querySelectorAll('[data-operator]:enabled').length")
+    assert enabled == 0
+    browser.run("document.getElementById('stop').click(); true")
+    browser.wait("document.body.dataset.stopped === 'true'", 5)
+    assert browser.run("document.getElementById('release').disabled")
+    sign_in(browser, page.token)
+    release(browser)
 
 
 def text_of(browser: Chromium) -> str:
@@ -208,7 +216,7 @@ def test_names_are_text(browser: Chromium) -> None:
         assert browser.run("document.querySelector('#table button').textContent") == name
         assert name in browser.run("document.getElementById('notice').textContent")
         time.sleep(0.2)
-        assert browser.run("document.querySelectorAll('main img').length") == 0
+        assert browser.run("document.querySelectorAll('#room-arena img').length") == 0
         assert not browser.run("document.body.dataset.broken")
 
 
