@@ -9,6 +9,7 @@ from tagmetry.cli.arena_latency import latency
 from tagmetry.cli.arena_mount import mount
 from tagmetry.cli.arena_recording import export, replay
 from tagmetry.cli.arena_run import run
+from tagmetry.cli.arena_stability import stability
 from tagmetry.cli.arena_twin import twin
 
 app = typer.Typer(help="Robots under a ceiling camera.", no_args_is_help=True)
@@ -22,3 +23,4 @@ app.command()(export)
 app.command()(client)
 app.command()(key)
 app.command()(latency)
+app.command()(stability)

@@ -61,6 +61,8 @@ def twin(  # noqa: PLR0913 (each argument is an option)
             if recorder is not None:
                 _record(recorder, moment, eye.pixels if eye is not None else None)
     tell_summary(summing.summary(), time.monotonic() - started_s)
+    if controller == "leader_follower":
+        _tell_stability(scenario)
     if picture is not None:
         _draw(picture, scenario, worlds, controller)
 
@@ -132,6 +134,16 @@ def tell_summary(summary: "Summary", took_s: float) -> None:
         typer.echo(f"robots {one} and {other} touched")
     for told in summary.stopped:
         typer.echo(f"stopped: {told}")
+
+
+def _tell_stability(scenario: "Scenario") -> None:
+    """Print what was to be expected of followers at this delay."""
+    from tagmetry.arena.stability import FollowingSetting, stability
+    from tagmetry.cli.arena_stability import stability_lines
+
+    setting = FollowingSetting(delay_s=scenario.delay_s, image_s=1 / scenario.image_rate_hz)
+    report = stability(setting, diameter_m=scenario.robots[0].robot.diameter_m)
+    typer.echo("\n".join(stability_lines(report)))
 
 
 def _check_drawing(path: Path | None) -> None:
