@@ -123,6 +123,14 @@ def drained(page: ClientConnection) -> None:
         page.recv(timeout=5)
 
 
+def heard(page: ClientConnection, part: str) -> str:
+    """Return the next text that holds a part; the server tells other things between."""
+    while True:
+        told = page.recv(timeout=5)
+        if isinstance(told, str) and part in told:
+            return told
+
+
 def eventually(is_so: object, seconds: float = 5.0) -> None:
     """Wait until something becomes true."""
     end_s = time.monotonic() + seconds

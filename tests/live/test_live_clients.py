@@ -8,11 +8,13 @@ from collections.abc import Iterator
 from contextlib import ExitStack
 
 import pytest
-from live_server import Served, drained, eventually, served
+from live_server import Served, drained, eventually, heard, served
 from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection
 
 from tagmetry.live import hub as hub_module
-from tagmetry.live.messages import Picture, World
+from tagmetry.live.messages import Picture, Seen, World
+from tagmetry.live.wire import format_message, split_picture
 
 SLOW, HALF_OPEN, HEALTHY = 20, 20, 10
 MESSAGES, STEP_S = 60, 0.02
@@ -26,7 +28,19 @@ def live() -> Iterator[Served]:
 
 def picture(number: int) -> Picture:
     """Return one of 200 kB, which no buffer of a slow client holds many of."""
-    return Picture(float(number), 960, 540, (), 200_000 * "A")
+    return Picture(float(number), 0.0, 960, 540, (), 200_000 * b"A")
+
+
+def number_of(told: str | bytes) -> float | None:
+    """Return a picture's number; None for anything else."""
+    return json.loads(split_picture(told)[0])["time_s"] if isinstance(told, bytes) else None
+
+
+def next_number(page: ClientConnection, timeout_s: float = 5.0) -> float:
+    """Return the next picture's number."""
+    while (number := number_of(page.recv(timeout=timeout_s))) is None:
+        pass
+    return number
 
 
 def half_open(live: Served) -> socket.socket:
@@ -54,8 +68,9 @@ class Healthy(threading.Thread):
     def run(self) -> None:
         with self._live.page(max_size=None) as page:
             while self.last < MESSAGES - 1:
-                told = json.loads(page.recv(timeout=10))
-                if told["type"] == "World":
+                told = page.recv(timeout=10)
+                told = json.loads(told) if isinstance(told, str) else {}
+                if told.get("type") == "World":
                     self.last = told["time_s"]
                     self.late_s.append(time.monotonic() - float(told["why"]))
 
@@ -91,9 +106,43 @@ def test_a_slow_page_finds_the_newest_and_nothing_older(live: Served) -> None:
             time.sleep(0.001)
         numbers = []
         while not numbers or numbers[-1] < 199:
-            numbers.append(json.loads(page.recv(timeout=10))["time_s"])
+            numbers.append(next_number(page))
     assert numbers == sorted(numbers)
     assert len(numbers) < 200  # what it had no time for is gone
+
+
+def test_a_page_that_says_what_it_shows_gets_one_picture_at_a_time(live: Served) -> None:
+    with live.page(max_size=None) as page:
+        for number in range(3):
+            live.hub.give(picture(number))
+            assert next_number(page) == number  # it has said nothing yet and gets all
+        page.send(format_message(Seen(time.monotonic())))
+        eventually(lambda: live.hub.delays.quantile_s(0.5) is not None)
+        for number in range(10, 20):
+            live.hub.give(picture(number))
+            time.sleep(0.005)
+        first = next_number(page)
+        with pytest.raises(TimeoutError):
+            next_number(page, timeout_s=0.2)
+        page.send(format_message(Seen(time.monotonic())))
+        assert next_number(page) == 19.0  # the newest, whatever came meanwhile
+    assert first < 19
+
+
+def test_pages_are_told_how_messages_reach_them(live: Served) -> None:
+    with live.page(max_size=None, max_queue=1) as page:
+        page.send(format_message(Seen(time.monotonic() - 0.25)))
+        page.send(format_message(Seen(time.monotonic() + 9.0)))  # of a clock that is none
+        for number in range(100):
+            live.hub.give(picture(number))
+            time.sleep(0.002)
+        told = {}
+        while not told.get("missed_hz"):
+            text = page.recv(timeout=5)
+            told = json.loads(text) if isinstance(text, str) and "Delivery" in text else told
+    assert told["pages"] == 1
+    assert told["told_hz"] > 0
+    assert 0.25 <= told["shown_median_s"] == told["shown_p99_s"] < 1.0
 
 
 def test_a_page_that_takes_nothing_for_long_is_cut_off(
@@ -123,4 +172,4 @@ def test_a_new_page_is_told_the_newest_at_once(live: Served) -> None:
     time.sleep(0.1)
     with live.page() as page:
         assert "Welcome" in page.recv(timeout=5)
-        assert json.loads(page.recv(timeout=5))["time_s"] == 7.0
+        assert json.loads(heard(page, "World"))["time_s"] == 7.0

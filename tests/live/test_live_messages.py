@@ -19,8 +19,10 @@ from tagmetry.live.messages import (
     GoTo,
     Halt,
     LiveRobot,
+    Picture,
     Release,
     Resume,
+    Seen,
     SetParameter,
     StartRecording,
     Stop,
@@ -28,10 +30,10 @@ from tagmetry.live.messages import (
     Told,
     World,
 )
-from tagmetry.live.wire import MOST_BYTES, format_message, parse_asked
+from tagmetry.live.wire import MOST_BYTES, format_message, packed, parse_asked, split_picture
 
 ASKED = [
-    Beat(), Stop(), Stop("a person"), Release(), GoTo(3, -0.5, 0.25), Resume(3),
+    Beat(), Seen(0.5), Stop(), Stop("a person"), Release(), GoTo(3, -0.5, 0.25), Resume(3),
     FollowPath(3, ((0.0, 0.5), (-1.0, 0.25))), Halt(3), SetParameter("gap_m", 0.1),
     ChooseScenario("disperse", 5), StartRecording(), StopRecording(),
 ]  # fmt: skip
@@ -44,9 +46,9 @@ def test_every_message_is_declared_once_with_its_sender() -> None:
     assert declared == expected
 
 
-def test_all_that_a_page_may_ask_needs_the_operator_but_a_stop() -> None:
+def test_all_that_a_page_may_ask_needs_the_operator_but_to_see_and_stop() -> None:
     free = {rule.message for rule in CONTRACT if rule.sender == "page" and rule.role == "viewer"}
-    assert free == {Stop}
+    assert free == {Seen, Stop}
 
 
 def test_what_lets_robots_move_is_driving() -> None:
@@ -60,7 +62,7 @@ def test_what_a_page_asks_survives_its_way(asked: Asked) -> None:
 
 @pytest.mark.parametrize("asked", ASKED, ids=lambda one: type(one).__name__)
 def test_a_viewer_is_refused_whatever_it_asks_but_a_stop(asked: Asked) -> None:
-    if isinstance(asked, Stop):
+    if isinstance(asked, Stop | Seen):
         assert parse_asked(format_message(asked), "viewer") == asked
         return
     with pytest.raises(InputError, match="needs the operator's role"):
@@ -79,6 +81,23 @@ def test_what_the_server_tells_is_plain_json() -> None:
     assert (one["name"], one["y_m"], one["ellipse"]) == ("<img onerror>", None, [1.0, 0.5, None])
 
 
+def test_a_picture_follows_its_json() -> None:
+    picture = Picture(1.5, 7.0, 960, 540, (), b"\xff\xd8 picture")
+    text, jpeg = split_picture(packed(picture))
+    assert jpeg == picture.jpeg
+    told = json.loads(text)
+    assert (told["type"], told["time_s"], told["taken_s"], told["width_px"]) == (
+        "Picture", 1.5, 7.0, 960,
+    )  # fmt: skip
+    assert packed(world := World(0.0, (), (), True, "")) == format_message(world)
+
+
+@pytest.mark.parametrize("content", [b"", b"\1", b"\0\0\0\0", b"\5\0\0\0{}", b"\xff\xff\xff\xff{}"])
+def test_refuses_what_is_no_picture(content: bytes) -> None:
+    with pytest.raises(InputError, match="a picture's length, JSON and file"):
+        split_picture(content)
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
@@ -86,7 +105,7 @@ def test_what_the_server_tells_is_plain_json() -> None:
         ("[]", "type"),
         ("{}", "type"),
         ('{"type": 3}', "type"),
-        ('{"type": "Fly"}', "one of Beat, Stop"),
+        ('{"type": "Fly"}', "one of Beat, Seen, Stop"),
         ('{"type": "World"}', "a page does not send World"),
         ('{"type": "GoTo", "robot_id": 1, "x_m": 0}', "y_m"),
         ('{"type": "GoTo", "robot_id": 1.5, "x_m": 0, "y_m": 0}', "robot_id"),

@@ -1,10 +1,10 @@
 """From moments and pictures to messages, no more often than a page can use them."""
 
-import base64
 import time
 from collections.abc import Callable
 
 import cv2
+import numpy as np
 
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.live.eye import Look
@@ -18,7 +18,7 @@ from tagmetry.pipeline.arena_twin import Moment
 
 _WORLD_S, _HEALTH_S = 1 / 20, 0.5
 _WORLD_SENDS_PER_S, _PICTURE_SENDS_PER_S = 3000, 500  # to all pages together
-_SCALE, _JPEG_QUALITY = 0.5, 75
+_MOST_WIDTH_PX, _JPEG_QUALITY = 960, 75
 
 
 class Feed:
@@ -68,12 +68,11 @@ class Feed:
             return
         self._picture_s = now_s
         self._pictures.count()
-        small = cv2.resize(pixels, None, fx=_SCALE, fy=_SCALE, interpolation=cv2.INTER_AREA)
-        _, jpeg = cv2.imencode(".jpg", small, [cv2.IMWRITE_JPEG_QUALITY, _JPEG_QUALITY])
+        small = _halved(pixels) if pixels.shape[1] > _MOST_WIDTH_PX else pixels
         height_px, width_px = small.shape[:2]
-        markers = told_markers(look.detections, show.roster, _SCALE)
-        encoded = base64.b64encode(jpeg.tobytes()).decode()
-        self._give(Picture(look.time_s, width_px, height_px, markers, encoded))
+        scale = width_px / show.arena.scenario.view.camera.width_px
+        markers = told_markers(look.detections, show.roster, scale)
+        self._give(Picture(look.time_s, look.taken_s, width_px, height_px, markers, _jpeg(small)))
 
     def health(self, show: Performance, late_s: float) -> None:
         """Tell how the measurement does, unless that was told just now."""
@@ -94,3 +93,12 @@ class Feed:
                 self.notice or self._recordings.failure,
             )
         )
+
+
+def _halved(pixels: AnyPixels) -> AnyPixels:
+    return np.asarray(cv2.resize(pixels, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA))
+
+
+def _jpeg(pixels: AnyPixels) -> bytes:
+    _, packed = cv2.imencode(".jpg", pixels, [cv2.IMWRITE_JPEG_QUALITY, _JPEG_QUALITY])
+    return packed.tobytes()

@@ -7,13 +7,15 @@ from pathlib import Path
 import numpy as np
 
 from tagmetry.camera import Image
-from tagmetry.live.eye import PICTURE_S, WatchedEye
+from tagmetry.live.eye import WatchedEye
 from tagmetry.pipeline.arena_twin import CornerEye, TwinArena
 from tagmetry.pipeline.arena_twin.ready import ready_scenario
 from tagmetry.pipeline.arena_twin.ready.stage import floor, shot
 from tagmetry.pipeline.arena_twin.summary import Summary, Summing
 from tagmetry.record import draw_overlay, open_overlay
 from tagmetry.twin.robots.overhead import OverheadPictures
+
+_PICTURE_S = 0.1
 
 
 def film(path: Path, name: str, robots: int, seconds: float) -> tuple[Summary, float]:
@@ -42,7 +44,7 @@ def film(path: Path, name: str, robots: int, seconds: float) -> tuple[Summary, f
             summing.take(moment)
             look = eye.newest
             if look is not None and look.time_s >= next_s:
-                next_s += PICTURE_S
+                next_s += _PICTURE_S
                 pixels = pictures.take(look.Ts_world_robot, rng)
                 drawn = draw_overlay(pixels, look.detections)
                 video.write(Image(drawn, look.time_s, "capture", source="twin"))

@@ -6,46 +6,90 @@ nobody waited for it.
 
 import asyncio
 from collections.abc import AsyncIterator
+from dataclasses import dataclass
 
 from tagmetry.errors import InputError
+from tagmetry.live.delays import Delays
 from tagmetry.live.messages import Told
-from tagmetry.live.wire import format_message
+from tagmetry.live.wire import packed
 
 MOST_PAGES = 1100
 
 
+Frame = str | bytes
+
+
 class Slot:
-    """What one page has not taken yet."""
+    """What one page has not taken yet.
+
+    Attributes:
+        told: Messages that it took.
+        missed: Messages that a newer one replaced before it took them.
+    """
 
     def __init__(self) -> None:
-        self._newest: dict[str, str] = {}
+        self.told = self.missed = 0
+        self._newest: dict[str, Frame] = {}
+        self._paced: set[str] = set()
+        self._held: set[str] = set()
         self._changed = asyncio.Event()
 
-    def first(self, text: str) -> None:
+    def first(self, frame: Frame) -> None:
         """Put a message before all others."""
-        self._newest = {"": text, **self._newest}
+        self._newest = {"": frame, **self._newest}
         self._changed.set()
 
-    def put(self, kind: str, text: str) -> None:
+    def put(self, kind: str, frame: Frame) -> None:
         """Replace what is there of this kind."""
-        self._newest[kind] = text
+        self.missed += kind in self._newest
+        self._newest[kind] = frame
         self._changed.set()
 
-    async def texts(self) -> AsyncIterator[str]:
+    def shown(self, kind: str) -> None:
+        """Take that the page shows the last of a kind; it then gets these one at a time."""
+        self._paced.add(kind)
+        self._held.discard(kind)
+        self._changed.set()
+
+    async def frames(self) -> AsyncIterator[Frame]:
         """Give what comes, oldest kind first, for ever."""
         while True:
             await self._changed.wait()
             self._changed.clear()
-            while self._newest:
-                yield self._newest.pop(next(iter(self._newest)))
+            while (kind := self._next()) is not None:
+                self.told += 1
+                self._held |= {kind} & self._paced
+                yield self._newest.pop(kind)
+
+    def _next(self) -> str | None:
+        return next((kind for kind in self._newest if kind not in self._held), None)
+
+
+@dataclass(frozen=True)
+class Counts:
+    """Messages since the beginning, to all pages together.
+
+    Attributes:
+        told: That were taken.
+        missed: That a newer one replaced before.
+    """
+
+    told: int
+    missed: int
 
 
 class Hub:
-    """Tells all pages."""
+    """Tells all pages.
+
+    Attributes:
+        delays: From an image until a page shows its picture, as pages say.
+    """
 
     def __init__(self) -> None:
+        self.delays = Delays()
+        self._gone = Counts(0, 0)
         self._slots: set[Slot] = set()
-        self._last: dict[str, str] = {}
+        self._last: dict[str, Frame] = {}
         self._loop: asyncio.AbstractEventLoop | None = None
 
     def open(self) -> None:
@@ -61,6 +105,13 @@ class Hub:
         """How many pages are connected."""
         return len(self._slots)
 
+    @property
+    def counts(self) -> Counts:
+        """Messages to all pages, also to those that are gone."""
+        told = sum(slot.told for slot in self._slots)
+        missed = sum(slot.missed for slot in self._slots)
+        return Counts(self._gone.told + told, self._gone.missed + missed)
+
     def join(self) -> Slot:
         """Return a new page's slot, with the newest of every kind.
 
@@ -70,30 +121,31 @@ class Hub:
         if len(self._slots) >= MOST_PAGES:
             raise InputError(f"{MOST_PAGES} pages are connected already")
         slot = Slot()
-        for kind, text in dict(self._last).items():
-            slot.put(kind, text)
+        for kind, frame in dict(self._last).items():
+            slot.put(kind, frame)
         self._slots.add(slot)
         return slot
 
     def leave(self, slot: Slot) -> None:
         """Forget a page."""
         self._slots.discard(slot)
+        self._gone = Counts(self._gone.told + slot.told, self._gone.missed + slot.missed)
 
     def give(self, message: Told) -> None:
         """Tell all pages; from any thread, and returns at once.
 
         What is told while the server does not run yet, its first page will find.
         """
-        loop, text = self._loop, format_message(message)
+        loop, frame = self._loop, packed(message)
         if loop is None:
-            self._last[type(message).__name__] = text
+            self._last[type(message).__name__] = frame
             return
         try:
-            loop.call_soon_threadsafe(self._spread, type(message).__name__, text)
+            loop.call_soon_threadsafe(self._spread, type(message).__name__, frame)
         except RuntimeError:
             self._loop = None  # the server has ended meanwhile
 
-    def _spread(self, kind: str, text: str) -> None:
-        self._last[kind] = text
+    def _spread(self, kind: str, frame: Frame) -> None:
+        self._last[kind] = frame
         for slot in self._slots:
-            slot.put(kind, text)
+            slot.put(kind, frame)

@@ -158,21 +158,23 @@ class Stage:
 
 @dataclass(frozen=True)
 class Picture:
-    """What the camera sees.
+    """What the camera sees; on its way the JPEG follows the JSON in one binary message.
 
     Attributes:
         time_s: When it was taken, in the arena's clock.
+        taken_s: The same in a clock of the server; `Seen` tells it back.
         width_px: Of the picture as it is sent.
         height_px: Of the picture as it is sent.
         markers: That were found in it.
-        jpeg: The picture, base64.
+        jpeg: The picture.
     """
 
     time_s: float
+    taken_s: float
     width_px: int
     height_px: int
     markers: tuple[LiveMarker, ...]
-    jpeg: str
+    jpeg: bytes
 
 
 @dataclass(frozen=True)
@@ -203,6 +205,26 @@ class Health:
 
 
 @dataclass(frozen=True)
+class Delivery:
+    """How messages reach the pages.
+
+    Attributes:
+        pages: That are connected.
+        told_hz: Messages per second that pages took, all together.
+        missed_hz: Messages per second that a newer one replaced before a slow page took them.
+        shown_median_s: From an image until a page shows its picture, the newest 200 times, as
+            pages say; None before.
+        shown_p99_s: What 99 of 100 do not exceed.
+    """
+
+    pages: int
+    told_hz: float
+    missed_hz: float
+    shown_median_s: float | None
+    shown_p99_s: float | None
+
+
+@dataclass(frozen=True)
 class Refused:
     """What the page asked for last was not done.
 
@@ -216,6 +238,17 @@ class Refused:
 @dataclass(frozen=True)
 class Beat:
     """The page that drives is open and looked at; without it for 300 ms, all robots stop."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """The page shows a picture; it gets the next one only then, once it has said so.
+
+    Attributes:
+        taken_s: The picture's.
+    """
+
+    taken_s: float
 
 
 @dataclass(frozen=True)
@@ -320,9 +353,10 @@ class StopRecording:
     """End the recording."""
 
 
-Told = Welcome | World | Stage | Picture | Health | Refused
+Told = Welcome | World | Stage | Picture | Health | Delivery | Refused
 Asked = (
     Beat
+    | Seen
     | Stop
     | Release
     | GoTo
@@ -365,8 +399,10 @@ CONTRACT = (
     Rule(Stage, "server", "viewer"),
     Rule(Picture, "server", "viewer"),
     Rule(Health, "server", "viewer"),
+    Rule(Delivery, "server", "viewer"),
     Rule(Refused, "server", "viewer"),
     Rule(Beat, "page", "operator"),
+    Rule(Seen, "page", "viewer"),
     Rule(Stop, "page", "viewer"),  # stopping is always safe
     Rule(Release, "page", "operator"),
     Rule(GoTo, "page", "operator"),

@@ -1,6 +1,7 @@
 """The socket of a page: what it is told, what it asks, and what happens when it is gone."""
 
 import asyncio
+import time
 from collections.abc import Sequence
 from itertools import count
 
@@ -9,7 +10,7 @@ from fastapi import WebSocket
 from tagmetry.errors import InputError
 from tagmetry.live.access import Access
 from tagmetry.live.hub import Hub, Slot
-from tagmetry.live.messages import Asked, Refused, Role, Welcome
+from tagmetry.live.messages import Asked, Picture, Refused, Role, Seen, Welcome
 from tagmetry.live.rooms.room import Room
 from tagmetry.live.running import Runner
 from tagmetry.live.watch import BEAT_S
@@ -74,16 +75,19 @@ class Pages:
             if message["type"] == "websocket.disconnect":
                 return
             try:
-                self._give(page, _asked(message.get("text"), role))
+                self._give(page, slot, _asked(message.get("text"), role))
             except InputError as error:
                 refusals += 1
                 slot.put("Refused", format_message(Refused(str(error))))
         await socket.close(NOT_UNDERSTOOD, "too many messages were refused")
 
-    def _give(self, page: int, asked: Asked) -> None:
+    def _give(self, page: int, slot: Slot, asked: Asked) -> None:
         """Give what a page asks for to its room; the arena takes what no room does."""
         take = self._takers.get(type(asked))
-        if take is None:
+        if isinstance(asked, Seen):
+            slot.shown(Picture.__name__)
+            self._hub.delays.count(time.monotonic() - asked.taken_s)
+        elif take is None:
             self._runner.ask(page, asked)
         else:
             take(asked)
@@ -97,6 +101,9 @@ def _asked(text: str | None, role: Role) -> Asked:
 
 async def _tell(socket: WebSocket, slot: Slot) -> None:
     """Send what comes until the page takes too long for one message, or is gone."""
-    async for text in slot.texts():
+    async for frame in slot.frames():
         async with asyncio.timeout(_PATIENCE_S):
-            await socket.send_text(text)
+            if isinstance(frame, str):
+                await socket.send_text(frame)
+            else:
+                await socket.send_bytes(frame)

@@ -11,6 +11,7 @@ from fastapi import FastAPI, Request, Response
 from starlette.requests import ClientDisconnect
 
 from tagmetry.live.access import Access
+from tagmetry.live.delivery import tell_delivery
 from tagmetry.live.door import behind
 from tagmetry.live.guard import Guard
 from tagmetry.live.hub import Hub
@@ -50,7 +51,9 @@ def create_app(access: Access, hub: Hub, runner: Runner, rooms: Sequence[Room] =
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         hub.open()
+        telling = asyncio.create_task(tell_delivery(hub))
         yield
+        telling.cancel()
         hub.close()
 
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None, lifespan=lifespan)

@@ -2,13 +2,15 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from tagmetry.arena import Roster
 from tagmetry.arena.controllers import ShieldRules
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.live.eye import Look, Painter, WatchedEye
+from tagmetry.live.eye import Look, WatchedEye
+from tagmetry.live.painter import Painter, painting
 from tagmetry.live.steered import Steered
 from tagmetry.pipeline.arena_twin import CornerEye, Scenario, TwinArena, TwinRobot
 from tagmetry.pipeline.arena_twin.ready import ready_scenario
@@ -56,7 +58,7 @@ def performance(
     noise = np.random.default_rng(scenario.seed)
     eye = WatchedEye(CornerEye(roster.robots, scenario.view, noise))
     arena = TwinArena(scenario, eye)
-    painter = Painter(roster.robots, eye, give) if give is not None else None
+    painter = Painter(eye, partial(painting, roster.robots), give) if give is not None else None
     return Performance(name, arena, steered, roster, eye, painter)
 
 

@@ -1,4 +1,8 @@
-"""Messages as text, and back: what does not follow the contract is refused in one line."""
+"""Messages as text, and back: what does not follow the contract is refused in one line.
+
+A picture is a binary message: the length of its JSON, 4 bytes with the lowest first, the JSON, and
+the picture's file.
+"""
 
 from functools import cache
 from typing import Any, cast
@@ -7,16 +11,38 @@ from pydantic import ConfigDict, TypeAdapter, ValidationError
 from pydantic_core import from_json, to_json
 
 from tagmetry.errors import InputError
-from tagmetry.live.messages import CONTRACT, Asked, Role, Rule, Told
+from tagmetry.live.messages import CONTRACT, Asked, Picture, Role, Rule, Told
 
 MOST_BYTES = 1024  # of what a page says
+_LENGTH_BYTES = 4
 _STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, str_max_length=100)
 _RULES = {rule.name: rule for rule in CONTRACT}
 
 
+def packed(message: Told) -> str | bytes:
+    """Return a message as it is sent: JSON, and a picture behind it where there is one."""
+    if not isinstance(message, Picture):
+        return format_message(message)
+    head = format_message(message).encode()
+    return len(head).to_bytes(_LENGTH_BYTES, "little") + head + message.jpeg
+
+
+def split_picture(content: bytes) -> tuple[str, bytes]:
+    """Return a binary message's JSON and picture.
+
+    Raises:
+        InputError: It is too short.
+    """
+    end = _LENGTH_BYTES + int.from_bytes(content[:_LENGTH_BYTES], "little")
+    if not _LENGTH_BYTES < end <= len(content):
+        raise InputError("expected a picture's length, JSON and file, got something else")
+    return content[_LENGTH_BYTES:end].decode("utf-8", "replace"), content[end:]
+
+
 def format_message(message: Told | Asked) -> str:
-    """Return a message as JSON; numbers that are not finite become null."""
+    """Return a message as JSON, without its picture; numbers that are not finite become null."""
     named = {"type": type(message).__name__, **vars(message)}
+    named.pop("jpeg", None)  # no text; it goes behind
     return to_json(named, inf_nan_mode="null").decode()
 
 

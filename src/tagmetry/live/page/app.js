@@ -22,11 +22,12 @@ const page = {
 const rooms = new Rooms([new ArenaRoom(page), new PrintRoom()]);
 let beating = null;
 
-function take(message) {
+async function take(message) {
   const own = { Welcome: welcome, World: (one) => notice.stopped(one), Health: showHealth,
     Refused: (one) => notice.show(one.why) };
   own[message.type]?.(message);
-  rooms.take(message);
+  await rooms.take(message);
+  if (message.type === "Picture") link.send("Seen", { taken_s: message.taken_s }); // the next one
 }
 
 function welcome(message) {

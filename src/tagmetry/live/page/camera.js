@@ -7,12 +7,11 @@ export class CameraView {
     this.shown = -Infinity;
   }
 
-  take(picture) {
-    const image = new Image();
-    image.onload = () => {
-      if (picture.time_s >= this.shown) this.draw(image, picture);
-    };
-    image.src = `data:image/jpeg;base64,${picture.jpeg}`;
+  // Shows a picture, unless a newer one was shown meanwhile.
+  async take(picture) {
+    const image = await createImageBitmap(picture.jpeg);
+    if (picture.time_s >= this.shown) this.draw(image, picture);
+    image.close();
   }
 
   clear() { this.shown = -Infinity; }

@@ -14,12 +14,13 @@ export class Link {
   open() {
     const scheme = location.protocol === "https:" ? "wss:" : "ws:";
     const socket = new WebSocket(`${scheme}//${location.host}/live`);
+    socket.binaryType = "arraybuffer";
     this.socket = socket;
     this.heard = performance.now();
     socket.onmessage = (event) => {
       if (socket !== this.socket) return;
       this.heard = performance.now();
-      this.onMessage(JSON.parse(event.data));
+      this.onMessage(parse(event.data));
     };
     socket.onclose = (event) => {
       if (socket !== this.socket) return;
@@ -47,4 +48,13 @@ export class Link {
     this.socket.send(JSON.stringify({ type, ...fields }));
     return true;
   }
+}
+
+// A binary message is the length of its JSON, 4 bytes with the lowest first, the JSON, and a JPEG.
+export function parse(data) {
+  if (typeof data === "string") return JSON.parse(data);
+  const end = 4 + new DataView(data).getUint32(0, true);
+  const message = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, end - 4)));
+  message.jpeg = new Blob([new Uint8Array(data, end)], { type: "image/jpeg" });
+  return message;
 }

@@ -3,7 +3,8 @@
 // A room is an object with `id`, and its part of the page is <section class="room" id="room-ID">:
 //   welcome(message)  a connection was made: who this page is, and what there is
 //   lost()            the connection is gone
-//   take(message)     anything that the server tells, also while another room is shown
+//   take(message)     anything that the server tells, also while another room is shown; may return
+//                     a promise that it is shown
 //   open(), close()   this room is shown, or another one
 export class Rooms {
   constructor(rooms) {
@@ -17,7 +18,7 @@ export class Rooms {
 
   welcome(message) { for (const one of this.rooms) one.welcome(message); }
   lost() { for (const one of this.rooms) one.lost(); }
-  take(message) { for (const one of this.rooms) one.take(message); }
+  take(message) { return Promise.allSettled(this.rooms.map((one) => one.take(message))); }
 
   follow(isMove) {
     const named = this.rooms.find((one) => `#${one.id}` === location.hash) ?? this.rooms[0];

@@ -46,7 +46,7 @@ export class ArenaRoom {
 
   take(message) {
     if (message.type === "World") this.showWorld(message);
-    if (message.type === "Picture" && this.isOpen) this.showPicture(message);
+    if (message.type === "Picture" && this.isOpen) return this.showPicture(message);
     if (message.type === "Health") this.showRecording(message.recording);
   }
 
@@ -70,8 +70,8 @@ export class ArenaRoom {
     this.showSelected();
   }
 
-  showPicture(message) {
-    this.camera.take(message);
+  async showPicture(message) {
+    await this.camera.take(message);
     $("camera-hint").textContent = `${message.markers.length} markers found`;
   }
 

@@ -1,0 +1,28 @@
+"""How messages reach the pages, told to them once in a while."""
+
+import asyncio
+import time
+
+from tagmetry.live.hub import Hub
+from tagmetry.live.messages import Delivery
+
+_EVERY_S = 0.5
+
+
+async def tell_delivery(hub: Hub) -> None:
+    """Tell all pages how the last half second went, until this is cancelled."""
+    then_s, before = time.monotonic(), hub.counts
+    while True:
+        await asyncio.sleep(_EVERY_S)
+        now_s, counts = time.monotonic(), hub.counts
+        passed_s = now_s - then_s
+        hub.give(
+            Delivery(
+                hub.pages,
+                (counts.told - before.told) / passed_s,
+                (counts.missed - before.missed) / passed_s,
+                hub.delays.quantile_s(0.5),
+                hub.delays.quantile_s(0.99),
+            )
+        )
+        then_s, before = now_s, counts
