@@ -1,5 +1,7 @@
 """`tagmetry arena twin` in a shell."""
 
+import sys
+
 import pytest
 
 pytest.importorskip("mujoco", reason="simulated robots need the extra `robots`")
@@ -49,6 +51,16 @@ def test_one_for_each_robot_and_one_that_raises(tmp_path, capsys):
     assert "raised ZeroDivisionError" in text
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="robots' processes are for POSIX")
+def test_robots_as_processes_drive_the_same_way(tmp_path, capsys):
+    file = tmp_path / "mine.py"
+    file.write_text(COME + "def control(view): return Twist(0.1, len(view.neighbours))\n")
+    driven = ["--controller", file, "--on-board", "--seconds", 1]
+    told = [said(capsys, *driven, *more).split(": ", 1)[1] for more in ([], ["--processes"])]
+    assert told[0] == told[1]
+    assert "nearest" in told[0]
+
+
 @pytest.mark.parametrize(
     ("content", "told"),
     [
@@ -71,6 +83,11 @@ def test_files_that_are_no_controllers(tmp_path, capsys, content, told):
         (["--controller", "missing.py"], "expected a Python file"),
         (["--picture", "ways.jpg"], "the drawing is a PNG"),
         (["--record", "run.bag"], "ends in .mcap"),
+        (["--on-board"], "--on-board needs a controller's file, leader_follower is a scenario"),
+        (["--program", "0=./robot"], "give --processes as well"),
+        (["--processes", "--program", "./robot"], "a robot's program like 3=./robot"),
+        (["--processes", "--program", "7=./robot"], "there is no robot 7, only 0 to 1"),
+        (["--processes", "--program", "0=./no/robot"], "cannot start the robot's program"),
     ],
 )
 def test_what_it_refuses(capsys, arguments, told):

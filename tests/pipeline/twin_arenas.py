@@ -39,9 +39,9 @@ def pair(delay_s=0.05, path=None, *, on_board=False, loss=0.0, **more):
     return Scenario((leader, follower), VIEW, camera_delay_s=0.6 * delay_s, radio=radio, **more)
 
 
-def ran(scenario, duration_s):
+def ran(scenario, duration_s, *, processes=False):
     """Return all moments of a run."""
-    arena = TwinArena(scenario)
+    arena = TwinArena(scenario, processes=processes)
     moments = list(arena.run(duration_s))
     arena.close()
     return moments

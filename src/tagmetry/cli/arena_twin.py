@@ -33,6 +33,21 @@ def twin(  # noqa: PLR0913 (each argument is an option)
         float, typer.Option(min=0.0, max=1.0, help="From the image to the command's effect, s.")
     ] = 0.05,
     loss: Annotated[float, typer.Option(min=0.0, max=1.0, help="Share of lost packets.")] = 0.0,
+    on_board: Annotated[
+        bool, typer.Option("--on-board", help="The controller's file steers from the robots.")
+    ] = False,
+    processes: Annotated[
+        bool,
+        typer.Option(
+            "--processes",
+            help="Each robot's computer is a process that speaks the link over UDP; simulated "
+            "time waits for all.",
+        ),
+    ] = False,
+    program: Annotated[
+        list[str] | None,
+        typer.Option(help="A program of your own as a robot's process: 3=./robot; repeatable."),
+    ] = None,
     pictures: Annotated[
         bool, typer.Option("--pictures", help="Render every image and find the markers in it.")
     ] = False,
@@ -43,17 +58,20 @@ def twin(  # noqa: PLR0913 (each argument is an option)
     seed: Annotated[int, typer.Option(min=0, help="Of starts and noise.")] = 0,
 ) -> None:
     """Let simulated robots drive; the arena, the controllers and the packets are the real ones."""
+    from tagmetry.cli.arena_twin_robots import manned
     from tagmetry.pipeline.arena_twin import TwinArena
     from tagmetry.pipeline.arena_twin.summary import Summing
 
     _check_drawing(picture)
     scenario = _scenario(controller, robots, delay, loss, seed)
+    file = Path(controller) if on_board else None
+    scenario = manned(scenario, file, program or [], processes=processes)
     eye = _picture_eye(scenario) if pictures else None
     summing = Summing()
     worlds: list[WorldState] = []
     started_s = time.monotonic()
     with ExitStack() as stack:
-        arena = stack.enter_context(closing(TwinArena(scenario, eye)))
+        arena = stack.enter_context(closing(TwinArena(scenario, eye, processes=processes)))
         recorder = _recorder(stack, record)
         for moment in _run(arena, seconds):
             summing.take(moment)

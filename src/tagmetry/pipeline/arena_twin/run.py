@@ -25,10 +25,12 @@ from tagmetry.pipeline.arena.messages import (
     pose_message,
 )
 from tagmetry.pipeline.arena.turning import Turn, Turning
+from tagmetry.pipeline.arena_twin.aboard import Aboard
 from tagmetry.pipeline.arena_twin.air import HOST, Air
 from tagmetry.pipeline.arena_twin.base import Base
+from tagmetry.pipeline.arena_twin.crew import Crew
 from tagmetry.pipeline.arena_twin.eyes import CornerEye, Eye
-from tagmetry.pipeline.arena_twin.on_board import OnBoard
+from tagmetry.pipeline.arena_twin.processes import Processes
 from tagmetry.pipeline.arena_twin.scenario import Scenario
 from tagmetry.twin.robots import RobotsPhysics
 
@@ -51,6 +53,7 @@ class Moment:
         readings: Their telemetry, by id and name.
         links: How every robot's link does.
         touching: Pairs of ids of robots that touch.
+        faults: What failed on the robots themselves, in words, by id.
     """
 
     time_s: float
@@ -63,17 +66,25 @@ class Moment:
     readings: Mapping[int, Mapping[str, float]]
     links: tuple[RobotLink, ...]
     touching: frozenset[tuple[int, int]]
+    faults: Mapping[int, str]
 
 
 class TwinArena:
     """A scenario that runs."""
 
-    def __init__(self, scenario: Scenario, eye: Eye | None = None) -> None:
+    def __init__(
+        self, scenario: Scenario, eye: Eye | None = None, *, processes: bool = False
+    ) -> None:
         """Put everything in its place.
 
         Args:
             scenario: What there is.
             eye: The camera; markers' corners with 0.05 px of noise, without pictures, when None.
+            processes: Every robot's computer is a process of its own that speaks the link over
+                UDP; simulated time waits for all of them.
+
+        Raises:
+            InputError: A robot's process cannot be started.
         """
         self.scenario = scenario
         rng = np.random.default_rng(scenario.seed)
@@ -83,12 +94,13 @@ class TwinArena:
             [(one.design, one.start) for one in scenario.robots], scenario.blocks, scenario.patches
         )
         self._eye = eye or CornerEye(roster.robots, scenario.view, rng)
-        keys = {robot_id: rng.bytes(32) for robot_id in self._ids}
+        secret = np.random.default_rng([scenario.seed, 1])  # what processes draw is their own
+        keys = {robot_id: secret.bytes(32) for robot_id in self._ids}
         self._air = Air(scenario.radio, rng)
-        self._base = Base(keys, self._air, rng)
-        self._robots = {
-            one.robot.id: OnBoard(one, keys[one.robot.id], rng) for one in scenario.robots
-        }
+        self._base = Base(keys, self._air, secret)
+        self._crew: Crew = (
+            Processes(scenario.robots, keys) if processes else Aboard(scenario.robots, keys, secret)
+        )
         drivers = Drivers(
             {
                 one.robot.id: Guarded(one.controller(), _PATIENCE_S)
@@ -118,6 +130,11 @@ class TwinArena:
         return self._physics.time_s
 
     @property
+    def crew(self) -> Crew:
+        """The robots' computers."""
+        return self._crew
+
+    @property
     def physics(self) -> RobotsPhysics:
         """The robots' bodies: to cut motors, to look at wheels."""
         return self._physics
@@ -139,8 +156,9 @@ class TwinArena:
         self._base.release()
 
     def close(self) -> None:
-        """End the controllers' threads."""
+        """End the controllers' threads, and the robots' processes."""
         self._turning.drivers.close()
+        self._crew.close()
 
     def _tick(self) -> Iterator[Moment]:
         now_s = self.time_s
@@ -159,7 +177,7 @@ class TwinArena:
             if receiver == HOST:
                 self._base.hear(packet, microseconds(now_s))
             else:
-                self._robots[receiver].hear(packet, now_s)
+                self._crew.bring(receiver, packet)
         for received in self._base.take():
             if isinstance(received.message, Odometry):
                 self._odometry[received.robot_id] = received.message
@@ -169,12 +187,10 @@ class TwinArena:
 
     def _think(self, now_s: float) -> None:
         """Let the robots' computers do their work."""
-        counts = self._physics.encoder_counts()
-        for number, robot_id in enumerate(self._ids):
-            robot = self._robots[robot_id]
-            for packet in robot.step(counts[number], now_s):
-                self._air.send(HOST, packet, now_s)
-            self._physics.want(number, robot.wish)
+        acts = self._crew.act(self._physics.encoder_counts(), microseconds(now_s))
+        for packet in acts.packets:
+            self._air.send(HOST, packet, now_s)
+        self._physics.turn_wheels(acts.wheels_radps)
 
     def _moment(self, image_s: float, detections: tuple[Detection, ...], now_s: float) -> Moment:
         radio = self.scenario.radio
@@ -192,6 +208,7 @@ class TwinArena:
             {one: dict(told) for one, told in self._readings.items()},
             self._base.links(microseconds(now_s)),
             frozenset((self._ids[a], self._ids[b]) for a, b in self._physics.touching()),
+            dict(self._crew.faults),
         )
 
     def _send(self, turn: Turn, now_s: float) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from tagmetry.arena import NeighbourSensor, Obstacle, OverheadView, Robot, SafetyRules
 from tagmetry.arena.controllers import Controller
@@ -21,6 +22,9 @@ class TwinRobot:
         design: What it is made of.
         on_board: Its controller runs on the robot and knows what its packets say; else it runs on
             the host, which sends commands.
+        controller_file: Where a robot that is a process of its own finds its controller on board.
+        program: What runs as that process: a program that speaks the link and the motor bus, and
+            its first words; this package's own where empty.
     """
 
     robot: Robot
@@ -28,6 +32,8 @@ class TwinRobot:
     controller: Callable[[], Controller] | None = None
     design: RobotDesign = field(default_factory=RobotDesign)
     on_board: bool = False
+    controller_file: Path | None = None
+    program: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -60,6 +60,7 @@ class Summing:
         """Return what all moments so far came to."""
         last = self._last
         decisions = last.turn.decisions if last is not None else ()
+        faults = last.faults if last is not None else {}
         return Summary(
             last.time_s if last is not None else 0.0,
             self._images,
@@ -67,7 +68,8 @@ class Summing:
             self._nearest_m,
             self._touched,
             float(np.sqrt(np.mean(self._squares_m2))) if self._squares_m2 else float("nan"),
-            tuple(f"robot {one.robot_id}: {one.told}" for one in decisions if one.must_stop),
+            tuple(f"robot {one.robot_id}: {one.told}" for one in decisions if one.must_stop)
+            + tuple(f"robot {key}: {told}" for key, told in faults.items()),
         )
 
 

@@ -84,6 +84,10 @@ class RobotsPhysics:
         """Give one robot's wheels the speeds of a motion, as far as they reach them."""
         self._servo.want(robot, twist)
 
+    def turn_wheels(self, speeds_radps: Array) -> None:
+        """Give all wheels the speeds of the left and right wheel of each robot, shape (n, 2)."""
+        self._servo.turn(speeds_radps)
+
     def cut(self, robot: int, side: int | None = None) -> None:
         """Take a motor's power away for good: of one wheel (0 left, 1 right), or of both."""
         self._servo.powered[robot, slice(None) if side is None else side] = False
@@ -186,6 +190,9 @@ class _Servo:
     def want(self, robot: int, twist: Twist) -> None:
         drive = self._drives[robot]
         self._wanted_radps[robot] = drive.wheel_speeds_radps(drive.within(twist))
+
+    def turn(self, speeds_radps: Array) -> None:
+        self._wanted_radps[:] = np.clip(speeds_radps, -self._top_radps, self._top_radps)
 
     def asks(self, speeds_radps: Array) -> tuple[Array, Array]:
         """Return the speeds to ask for and the torques at hand, each of shape (n, 2)."""
