@@ -6,7 +6,6 @@ files of their own.
 
 import math
 import struct
-from dataclasses import astuple
 
 from tagmetry.errors import InputError
 from tagmetry.link.layout import Kind
@@ -29,12 +28,12 @@ def pack_body(message: Message) -> tuple[Kind, bytes]:
         return kind, pack_neighbours(message)
     if isinstance(message, Telemetry):
         return kind, pack_telemetry(message)
-    numbers = astuple(message)
+    numbers = tuple(vars(message).values())
     try:
         body = BODIES[kind].layout.packing.pack(*numbers)
     except (struct.error, OverflowError, TypeError) as error:
         raise InputError(f"this {kind.name} cannot be sent: {error}; it was {message}") from None
-    if not _are_finite(BODIES[kind].layout.packing.unpack(body)):
+    if not _are_finite(numbers):
         raise InputError(f"this {kind.name} cannot be sent: a number is not finite; {message}")
     return kind, body
 
