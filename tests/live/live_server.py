@@ -5,7 +5,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import uvicorn
@@ -15,6 +15,7 @@ from tagmetry.live.access import Access
 from tagmetry.live.hub import Hub
 from tagmetry.live.messages import Asked
 from tagmetry.live.rooms.every import opened_rooms
+from tagmetry.live.rooms.room import Room
 from tagmetry.live.serving import listening, server
 
 
@@ -91,12 +92,22 @@ class Served:
 @contextmanager
 def served(address: str = "127.0.0.1", port: int = 0) -> Iterator[Served]:
     """Give a server that runs in a thread."""
-    with listening("127.0.0.1", port) as opened, opened_rooms() as rooms:
+    hub, runner = Hub(), Remembering()
+    with listening("127.0.0.1", port) as opened, opened_rooms(hub.give) as rooms:
         port = opened.getsockname()[1]
-        access, hub, runner = Access(address, port), Hub(), Remembering()
-        own = server(access, hub, runner, rooms)
+        access = Access(address, port)
+        own = server(access, hub, runner, [without_deeds(room, runner) for room in rooms])
         with running(own, opened):
             yield Served(port, access, hub, runner)
+
+
+def without_deeds(room: Room, runner: Remembering) -> Room:
+    """Return a room that only remembers what it is told, as the runner does."""
+
+    def take(asked: Asked) -> None:
+        runner.ask(0, asked)
+
+    return replace(room, takers=dict.fromkeys(room.takers, take))
 
 
 @contextmanager

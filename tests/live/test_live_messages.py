@@ -19,6 +19,7 @@ from tagmetry.live.messages import (
     GoTo,
     Halt,
     LiveRobot,
+    MeasureErrors,
     Picture,
     Release,
     Resume,
@@ -35,7 +36,7 @@ from tagmetry.live.wire import MOST_BYTES, format_message, packed, parse_asked, 
 ASKED = [
     Beat(), Seen(0.5), Stop(), Stop("a person"), Release(), GoTo(3, -0.5, 0.25), Resume(3),
     FollowPath(3, ((0.0, 0.5), (-1.0, 0.25))), Halt(3), SetParameter("gap_m", 0.1),
-    ChooseScenario("disperse", 5), StartRecording(), StopRecording(),
+    ChooseScenario("disperse", 5), MeasureErrors(), StartRecording(), StopRecording(),
 ]  # fmt: skip
 
 

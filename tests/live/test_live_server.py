@@ -40,7 +40,7 @@ def far_headers(far: Served) -> dict[str, str]:
 
 
 def test_every_route_of_the_app_is_declared_with_its_role(live: Served) -> None:
-    with opened_rooms() as rooms:
+    with opened_rooms(live.hub.give) as rooms:
         app = create_app(live.access, Hub(), live.runner, rooms)
     methods = {
         route.path: (*sorted(getattr(route, "methods", None) or ["WEBSOCKET"]),)

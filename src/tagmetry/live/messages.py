@@ -225,6 +225,24 @@ class Delivery:
 
 
 @dataclass(frozen=True)
+class FloorErrors:
+    """How far measured places are off over the floor, as `MeasureErrors` found it.
+
+    Attributes:
+        is_measuring: It is being found out; nothing is known yet.
+        step_m: Between the places.
+        height_m: Of the markers above the floor.
+        errors: One for each place: x, y, the error along x and along y, and the stated standard
+            deviation, m.
+    """
+
+    is_measuring: bool
+    step_m: float
+    height_m: float
+    errors: tuple[tuple[float, float, float, float, float], ...]
+
+
+@dataclass(frozen=True)
 class Refused:
     """What the page asked for last was not done.
 
@@ -344,6 +362,11 @@ class ChooseScenario:
 
 
 @dataclass(frozen=True)
+class MeasureErrors:
+    """Measure the simulated floor's error map."""
+
+
+@dataclass(frozen=True)
 class StartRecording:
     """Record states and pictures into a new file, which the server names."""
 
@@ -353,7 +376,7 @@ class StopRecording:
     """End the recording."""
 
 
-Told = Welcome | World | Stage | Picture | Health | Delivery | Refused
+Told = Welcome | World | Stage | Picture | Health | Delivery | FloorErrors | Refused
 Asked = (
     Beat
     | Seen
@@ -365,6 +388,7 @@ Asked = (
     | Resume
     | SetParameter
     | ChooseScenario
+    | MeasureErrors
     | StartRecording
     | StopRecording
 )
@@ -400,6 +424,7 @@ CONTRACT = (
     Rule(Picture, "server", "viewer"),
     Rule(Health, "server", "viewer"),
     Rule(Delivery, "server", "viewer"),
+    Rule(FloorErrors, "server", "viewer"),
     Rule(Refused, "server", "viewer"),
     Rule(Beat, "page", "operator"),
     Rule(Seen, "page", "viewer"),
@@ -411,6 +436,7 @@ CONTRACT = (
     Rule(Resume, "page", "operator"),
     Rule(SetParameter, "page", "operator"),
     Rule(ChooseScenario, "page", "operator"),
+    Rule(MeasureErrors, "page", "operator"),
     Rule(StartRecording, "page", "operator"),
     Rule(StopRecording, "page", "operator"),
 )

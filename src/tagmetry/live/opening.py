@@ -66,7 +66,7 @@ def opened_page(
         access, hub = Access(address, port), Hub()
         with (
             LiveRunner(scenario, robots, recordings, hub.give, pictures=pictures) as runner,
-            opened_rooms() as rooms,
+            opened_rooms(hub.give) as rooms,
         ):
             host = f"[{address}]" if ":" in address else address
             url = f"http://{host}:{port}/"
