@@ -51,6 +51,33 @@ def test_a_formation_keeps_its_shape():
     assert not summary.touched
 
 
+def test_wanderers_explore_and_enter_no_obstacle():
+    scenario = ready_scenario("wander", 8)
+    moments, summary = ran(scenario, 15.0)
+    paths = np.array([[place.xy_m for place in moment.places.values()] for moment in moments])
+    near_m = [
+        np.hypot(*(one.nearest_point(xy_m) - xy_m))
+        for one in scenario.obstacles
+        for xy_m in paths[::5].reshape(-1, 2)
+    ]
+    assert min(near_m) > 0.08
+    assert not summary.touched
+    reached_m = np.ptp(paths, axis=0).max(axis=1)
+    assert reached_m.min() > 0.2
+    assert reached_m.mean() > 0.5
+
+
+def test_wanderers_start_clear_of_obstacles_however_many():
+    for robots in (1, 30):
+        scenario = ready_scenario("wander", robots, seed=3)
+        assert len(scenario.robots) == robots
+        for one in scenario.robots:
+            xy_m = one.start.xy_m
+            assert all(
+                np.hypot(*(it.nearest_point(xy_m) - xy_m)) > 0.15 for it in scenario.obstacles
+            )
+
+
 def test_a_user_s_controllers_know_their_robot():
     scenario = driven_scenario(lambda robot: lambda _view: Twist(0.05 * robot, 0.0), 3)
     moments, _ = ran(scenario, 2.0)

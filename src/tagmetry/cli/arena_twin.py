@@ -23,7 +23,7 @@ def twin(  # noqa: PLR0913 (each argument is an option)
     controller: Annotated[
         str,
         typer.Option(
-            help="leader_follower, aggregate, disperse, formation; or a Python file with a "
+            help="leader_follower, aggregate, disperse, formation, wander; or a Python file with a "
             "function control(view)."
         ),
     ] = "leader_follower",

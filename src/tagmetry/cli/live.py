@@ -12,9 +12,16 @@ if TYPE_CHECKING:
 def live(  # noqa: PLR0913 (each argument is an option)
     *,
     scenario: Annotated[
-        str, typer.Option(help="leader_follower, aggregate, disperse or formation.")
+        str,
+        typer.Option(
+            help="leader_follower, aggregate, disperse, formation, wander; or a --controller's name"
+        ),
     ] = "leader_follower",
     robots: Annotated[int, typer.Option(min=1, max=100, help="How many, simulated.")] = 12,
+    controller: Annotated[
+        list[Path] | None,
+        typer.Option(help="A Python file with a function control(view), to be chosen on the page."),
+    ] = None,
     address: Annotated[
         str, typer.Option(help="Interface to serve at; beyond this computer all need the token.")
     ] = "127.0.0.1",
@@ -38,7 +45,15 @@ def live(  # noqa: PLR0913 (each argument is an option)
     _require_server()
     from tagmetry.live.opening import opened_page
 
-    with opened_page(scenario, robots, address, port, recordings, pictures=pictures) as page:
+    with opened_page(
+        scenario,
+        robots,
+        address,
+        port,
+        recordings,
+        controllers=controller or (),
+        pictures=pictures,
+    ) as page:
         _tell(page)
         if browser:
             _open_soon(page.url)

@@ -1,7 +1,7 @@
 """The live page as a whole: the arena's thread, the door and the server, ready to run."""
 
 import socket
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,16 +46,18 @@ def opened_page(
     port: int,
     recordings: Path,
     *,
+    controllers: Sequence[Path] = (),
     pictures: bool = True,
 ) -> Iterator[LivePage]:
     """Give a page whose arena runs; it ends with the block.
 
     Args:
-        scenario: Name of a ready-made one.
+        scenario: Name of a ready-made one, or of a controller's file.
         robots: How many.
         address: To listen at: an interface of this computer.
         port: To listen at; 0 for a free one.
         recordings: Folder for recordings.
+        controllers: Files of users that can be chosen.
         pictures: Paint what the camera sees.
 
     Raises:
@@ -65,7 +67,14 @@ def opened_page(
         port = opened.getsockname()[1]
         access, hub = Access(address, port), Hub()
         with (
-            LiveRunner(scenario, robots, recordings, hub.give, pictures=pictures) as runner,
+            LiveRunner(
+                scenario,
+                robots,
+                recordings,
+                hub.give,
+                controllers=controllers,
+                pictures=pictures,
+            ) as runner,
             opened_rooms(hub.give) as rooms,
         ):
             host = f"[{address}]" if ":" in address else address

@@ -7,7 +7,7 @@ A computer that is too slow lets the arena fall behind the clock; no tick of it 
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -36,9 +36,9 @@ from tagmetry.live.messages import (
 )
 from tagmetry.live.orders import Order, Orders
 from tagmetry.live.recording import Recordings
+from tagmetry.live.repertoire import Repertoire
 from tagmetry.live.stage import Performance, performance
 from tagmetry.live.watch import Watch
-from tagmetry.pipeline.arena_twin.ready import READY
 from tagmetry.pipeline.arena_twin.run import TICK_S
 
 _MOST_LATE_S = 0.25  # what is missed beyond is not caught up with
@@ -55,20 +55,23 @@ class LiveRunner:
         recordings: Path,
         give: Callable[[Told], None],
         *,
+        controllers: Sequence[Path] = (),
         pictures: bool = True,
     ) -> None:
         """Make everything ready.
 
         Args:
-            scenario: One of `READY`.
+            scenario: A ready-made one, or a controller's file by its name.
             robots: How many.
             recordings: Folder for what is recorded.
             give: Takes every message for the pages, and returns at once.
+            controllers: Files of users that can be chosen.
             pictures: Paint what the camera sees.
 
         Raises:
-            InputError: There is no such scenario, or not for so many robots.
+            InputError: There is no such scenario, not for so many robots, or a file is broken.
         """
+        self._repertoire = Repertoire(controllers)
         self._pictures = pictures
         self._recordings = Recordings(recordings)
         self._feed = Feed(give, self._recordings)
@@ -108,7 +111,7 @@ class LiveRunner:
     @property
     def scenarios(self) -> tuple[str, ...]:
         """Names of what can be chosen."""
-        return tuple(READY)
+        return self._repertoire.names
 
     @property
     def recordings(self) -> Path:
@@ -202,10 +205,12 @@ class LiveRunner:
         self._why = None
 
     def _begin(self, name: str, robots: int) -> Performance:
+        scenario = self._repertoire.scenario(name, robots)
+
         def give(look: Look, pixels: AnyPixels) -> None:
             self._recordings.image(Image(pixels, look.time_s, "capture", source="twin"))
             self._feed.picture(look, pixels, show)
 
-        show = performance(name, robots, give if self._pictures else None)
+        show = performance(name, scenario, give if self._pictures else None)
         self._feed.stage(show)
         return show

@@ -13,7 +13,6 @@ from tagmetry.live.eye import Look, WatchedEye
 from tagmetry.live.painter import Painter, painting
 from tagmetry.live.steered import Steered
 from tagmetry.pipeline.arena_twin import CornerEye, Scenario, TwinArena, TwinRobot
-from tagmetry.pipeline.arena_twin.ready import ready_scenario
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,16 +43,16 @@ class Performance:
 
 
 def performance(
-    name: str, robots: int, give: Callable[[Look, AnyPixels], None] | None
+    name: str, chosen: Scenario, give: Callable[[Look, AnyPixels], None] | None
 ) -> Performance:
-    """Return a ready-made scenario that can begin.
+    """Return a scenario that can begin before people.
 
     Args:
         name: Of the scenario.
-        robots: How many.
+        chosen: What runs.
         give: Takes the camera's pictures, in a thread of its own; None for no pictures.
     """
-    scenario, steered = steerable(ready_scenario(name, robots))
+    scenario, steered = steerable(chosen)
     roster = Roster(tuple(one.robot for one in scenario.robots))
     noise = np.random.default_rng(scenario.seed)
     eye = WatchedEye(CornerEye(roster.robots, scenario.view, noise))

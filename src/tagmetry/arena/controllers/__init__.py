@@ -8,6 +8,7 @@ from tagmetry.arena.controllers.shield import Shielded, ShieldRules
 from tagmetry.arena.controllers.swarm import Aggregate, Disperse, Formation, Manner
 from tagmetry.arena.controllers.tracking import Gains, PathFollower
 from tagmetry.arena.controllers.view import Controller, View
+from tagmetry.arena.controllers.wander import Wander
 from tagmetry.arena.controllers.waypoints import legs_through
 
 __all__ = [
@@ -29,6 +30,7 @@ __all__ = [
     "SpringFollower",
     "Tunable",
     "View",
+    "Wander",
     "legs_through",
     "line_loop_line",
     "parameters_of",

@@ -5,11 +5,13 @@ from functools import partial
 
 import numpy as np
 
+from tagmetry.arena import Obstacle
 from tagmetry.arena.controllers import Controller
 from tagmetry.errors import InputError
 from tagmetry.pipeline.arena_twin.ready import stage
 from tagmetry.pipeline.arena_twin.ready.following import leader_follower
 from tagmetry.pipeline.arena_twin.ready.swarms import aggregate, disperse, formation
+from tagmetry.pipeline.arena_twin.ready.wandering import OBSTACLES, wander
 from tagmetry.pipeline.arena_twin.scenario import Scenario, TwinRobot
 
 READY: dict[str, Callable[[int, np.random.Generator], tuple[TwinRobot, ...]]] = {
@@ -17,7 +19,9 @@ READY: dict[str, Callable[[int, np.random.Generator], tuple[TwinRobot, ...]]] = 
     "aggregate": aggregate,
     "disperse": disperse,
     "formation": formation,
+    "wander": wander,
 }
+_OBSTACLES: dict[str, tuple[Obstacle, ...]] = {"wander": OBSTACLES}
 
 
 def ready_scenario(name: str, robots: int, seed: int = 0) -> Scenario:
@@ -32,7 +36,8 @@ def ready_scenario(name: str, robots: int, seed: int = 0) -> Scenario:
         raise InputError(f"there is no scenario {name!r}; there are {', '.join(READY)}")
     _check_count(robots)
     twins = READY[name](robots, np.random.default_rng(seed))
-    return Scenario(twins, stage.view(), seed=seed)
+    obstacles = _OBSTACLES.get(name, ())
+    return Scenario(twins, stage.view(), obstacles=obstacles, seed=seed)
 
 
 def driven_scenario(make: Callable[[int], Controller], robots: int, seed: int = 0) -> Scenario:
