@@ -1,14 +1,13 @@
 """A block of pixels, laid out so that compilers make vector code of the loops over it.
 
 Everything that is known of the pixels of a block stands in one flat array, the room: row after row,
-one number per pixel. Rows begin at constants, `room[U + p]` is the u of pixel p. With constant
-distances and no branch, eight pixels are computed at once.
+one number of 32 bits per pixel. Rows begin at constants, `room[U + p]` is the u of pixel p. With
+constant distances and no branch, eight pixels or more are computed at once.
 """
 
 import numpy as np
 
-from tagmetry.detect.photometric.kernel import kernel
-from tagmetry.geometry import Array
+from tagmetry.detect.photometric.kernel import Narrow, kernel
 
 BLOCK = 64  # pixels
 MOST_EDGES = 5  # of one direction, within reach of a pixel
@@ -42,9 +41,15 @@ ROOM = _END
 
 
 @kernel
-def new_room() -> Array:
+def new_pixels(blocks: int) -> Narrow:
+    """Return room for what is read of so many blocks, shape (blocks, READ)."""
+    return np.empty((blocks, READ), dtype=np.float32)
+
+
+@kernel
+def new_room() -> Narrow:
     """Return room for one block."""
-    room = np.zeros(ROOM)
+    room = np.zeros(ROOM, dtype=np.float32)
     room[STEP_U : STEP_U + BLOCK] = 1.0
     room[STEP_V : STEP_V + BLOCK] = 1.0
     return room

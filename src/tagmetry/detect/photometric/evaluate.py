@@ -10,20 +10,19 @@ have it.
 import numpy as np
 
 from tagmetry.detect.photometric import block as row
-from tagmetry.detect.photometric.kernel import kernel
+from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
 from tagmetry.detect.photometric.model import BLUR, BOWS, SLOPES, bent_place
 from tagmetry.detect.photometric.values import write_values
 from tagmetry.detect.photometric.whiteness import write_whiteness
-from tagmetry.geometry import Array
 
 
 @kernel
-def evaluate(room: Array, fit: Array, edges: int, noise: float, count: int) -> None:
+def evaluate(room: Narrow, fit: Narrow, edges: int, noise: float, count: int) -> None:
     """Write the weighted residuals of a block, and their derivatives by `count` numbers.
 
     Args:
         room: The block, see `block`.
-        fit: The numbers.
+        fit: The numbers, of 32 bits.
         edges: How many edges of each direction a pixel sees.
         noise: Grey values; residuals far beyond count less.
         count: 10, 18 or 23.
@@ -41,11 +40,11 @@ def evaluate(room: Array, fit: Array, edges: int, noise: float, count: int) -> N
 
 
 @kernel
-def write_cells(room: Array, fit: Array) -> None:
+def write_cells(room: Narrow, fit: Narrow) -> None:
     """Write where pixels lie in cells, and the slopes of that."""
     for p in range(row.BLOCK):
         x, y = bent_place(fit, room[row.X + p], room[row.Y + p])
-        down = 1.0 / (fit[6] * x + fit[7] * y + 1.0)
+        down = f32(1) / (fit[6] * x + fit[7] * y + f32(1))
         u = (fit[0] * x + fit[1] * y + fit[2]) * down
         v = (fit[3] * x + fit[4] * y + fit[5]) * down
         room[row.BENT_X + p], room[row.BENT_Y + p] = x, y
@@ -61,20 +60,20 @@ def write_cells(room: Array, fit: Array) -> None:
 
 
 @kernel
-def _write_blurs(room: Array, fit: Array) -> None:
+def _write_blurs(room: Narrow, fit: Narrow) -> None:
     """Write one over the blur in cells, along u and along v, and how these are correlated."""
     xx, xy, yy = fit[BLUR], fit[BLUR + 1], fit[BLUR + 2]
     for p in range(row.BLOCK):
         ux, uy, vx, vy = room[row.UX + p], room[row.UY + p], room[row.VX + p], room[row.VY + p]
-        sharp_u = 1.0 / np.sqrt(xx * ux * ux + 2 * xy * ux * uy + yy * uy * uy)
-        sharp_v = 1.0 / np.sqrt(xx * vx * vx + 2 * xy * vx * vy + yy * vy * vy)
+        sharp_u = f32(1) / np.sqrt(xx * ux * ux + f32(2) * xy * ux * uy + yy * uy * uy)
+        sharp_v = f32(1) / np.sqrt(xx * vx * vx + f32(2) * xy * vx * vy + yy * vy * vy)
         mixed = xx * ux * vx + xy * (ux * vy + uy * vx) + yy * uy * vy
         room[row.SHARP_U + p], room[row.SHARP_V + p] = sharp_u, sharp_v
         room[row.CORRELATION + p] = mixed * sharp_u * sharp_v
 
 
 @kernel
-def _weigh(room: Array) -> None:
+def _weigh(room: Narrow) -> None:
     """Turn slopes of the whiteness per blur into those of the weighted value per cell."""
     for p in range(row.BLOCK):
         by_white = room[row.BY_WHITE + p]
@@ -87,7 +86,7 @@ def _weigh(room: Array) -> None:
 
 
 @kernel
-def _write_by_homography(room: Array) -> None:
+def _write_by_homography(room: Narrow) -> None:
     first = row.J
     for p in range(row.BLOCK):
         x, y, down = room[row.BENT_X + p], room[row.BENT_Y + p], room[row.DOWN + p]
@@ -104,31 +103,31 @@ def _write_by_homography(room: Array) -> None:
 
 
 @kernel
-def _write_by_blur(room: Array) -> None:
+def _write_by_blur(room: Narrow) -> None:
     first = row.J + BLUR * row.BLOCK
     for p in range(row.BLOCK):
         ux, uy, vx, vy = room[row.UX + p], room[row.UY + p], room[row.VX + p], room[row.VY + p]
         sharp_u, sharp_v = room[row.SHARP_U + p], room[row.SHARP_V + p]
         turning = room[row.BY_CORRELATION + p]
         lost = turning * room[row.CORRELATION + p]
-        by_uu = 0.5 * sharp_u * (room[row.BY_BLUR_U + p] - lost * sharp_u)
-        by_vv = 0.5 * sharp_v * (room[row.BY_BLUR_V + p] - lost * sharp_v)
+        by_uu = f32(0.5) * sharp_u * (room[row.BY_BLUR_U + p] - lost * sharp_u)
+        by_vv = f32(0.5) * sharp_v * (room[row.BY_BLUR_V + p] - lost * sharp_v)
         by_uv = turning * sharp_u * sharp_v
         room[first + p] = by_uu * ux * ux + by_vv * vx * vx + by_uv * ux * vx
-        room[first + row.BLOCK + p] = 2 * (by_uu * ux * uy + by_vv * vx * vy) + by_uv * (
+        room[first + row.BLOCK + p] = f32(2) * (by_uu * ux * uy + by_vv * vx * vy) + by_uv * (
             ux * vy + uy * vx
         )
         room[first + 2 * row.BLOCK + p] = by_uu * uy * uy + by_vv * vy * vy + by_uv * uy * vy
 
 
 @kernel
-def _write_by_bows(room: Array) -> None:
+def _write_by_bows(room: Narrow) -> None:
     first = row.J + BOWS * row.BLOCK
     for p in range(row.BLOCK):
         x, y, by_u, by_v = room[row.X + p], room[row.Y + p], room[row.BY_U + p], room[row.BY_V + p]
         by_x = by_u * room[row.UX + p] + by_v * room[row.VX + p]
         by_y = by_u * room[row.UY + p] + by_v * room[row.VY + p]
-        far, saddle, twist = x * x + y * y - 1.0, x * x - y * y, 2 * x * y
+        far, saddle, twist = x * x + y * y - f32(1), x * x - y * y, f32(2) * x * y
         room[first + p] = far * by_x
         room[first + row.BLOCK + p] = far * by_y
         room[first + 2 * row.BLOCK + p] = saddle * by_x - twist * by_y

@@ -4,7 +4,7 @@ import numpy as np
 
 from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.evaluate import evaluate
-from tagmetry.detect.photometric.kernel import kernel, step
+from tagmetry.detect.photometric.kernel import Narrow, kernel, step
 from tagmetry.detect.photometric.model import BLACK, BLUR, EXPONENT, SLOPES, cell_px
 from tagmetry.detect.photometric.normal import add_products, factor, solve
 from tagmetry.detect.photometric.view import View
@@ -73,9 +73,10 @@ def _summed(
     """Return the sums of products, and the sizes of residuals."""
     room = view.room
     sums, sizes = np.zeros((row.MOST_NUMBERS, row.MOST_NUMBERS)), np.empty(pixel_count)
+    narrow = fit.astype(np.float32)
     for first in range(0, pixel_count, row.BLOCK):
         _read(room, view.pixels, first, edges)
-        evaluate(room, fit, edges, noise, count)
+        evaluate(room, narrow, edges, noise, count)
         add_products(room, sums, count)
         for p in range(min(row.BLOCK, pixel_count - first)):
             sizes[first + p] = room[row.SIZE + p]
@@ -83,7 +84,7 @@ def _summed(
 
 
 @step
-def _read(room: Array, pixels: Array, first: int, edges: int) -> None:
+def _read(room: Narrow, pixels: Narrow, first: int, edges: int) -> None:
     """Write what is known of a block's pixels into the room."""
     pixel = pixels[first // row.BLOCK]
     for k in range(row.CHANGES + (edges + 1) ** 2 * row.BLOCK):
@@ -99,10 +100,11 @@ def variance_beside_edges(
     There it holds what the model does not describe too, and it is what moves the fit.
     """
     room, squares, slopes2 = view.room, 0.0, 1e-12
+    narrow = fit.astype(np.float32)
     across, downward = row.J + 2 * row.BLOCK, row.J + 5 * row.BLOCK  # by a shift of the picture
     for first in range(0, pixel_count, row.BLOCK):
         _read(room, view.pixels, first, edges)
-        evaluate(room, fit, edges, noise, SLOPES)
+        evaluate(room, narrow, edges, noise, SLOPES)
         for p in range(row.BLOCK):
             slope2 = room[across + p] ** 2 + room[downward + p] ** 2
             squares += slope2 * room[row.RESIDUAL + p] ** 2

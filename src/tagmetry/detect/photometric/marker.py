@@ -11,7 +11,7 @@ from tagmetry.detect.photometric.behind import reaches_edges, with_surround
 from tagmetry.detect.photometric.corners import write_corners
 from tagmetry.detect.photometric.fit import fit_pixels, variance_beside_edges
 from tagmetry.detect.photometric.ink import changes
-from tagmetry.detect.photometric.kernel import kernel, step
+from tagmetry.detect.photometric.kernel import Narrow, kernel, step
 from tagmetry.detect.photometric.model import (
     BLACK,
     BLUR,
@@ -71,7 +71,7 @@ def fit_markers(
     count, first_cell = len(sizes), 0
     fits, places, joints = starts.copy(), np.zeros((count, 4, 2)), np.zeros((count, JOINT, JOINT))
     noises, moves_px = np.zeros(count), np.zeros(count)
-    room, pixels = row.new_room(), np.empty((MOST_BLOCKS, row.READ))
+    room, pixels = row.new_room(), row.new_pixels(MOST_BLOCKS)
     for k in range(count):
         ink = inks[first_cell : first_cell + sizes[k] ** 2].reshape(sizes[k], sizes[k])
         first_cell += sizes[k] ** 2
@@ -168,7 +168,7 @@ def _with_windows(view: View, ink: Array, fit: Array, count: int, spare_px: floa
 
 
 @step
-def _set_levels(fit: Array, ink: Array, pixels: Array, count: int) -> None:
+def _set_levels(fit: Array, ink: Array, pixels: Narrow, count: int) -> None:
     """Set the values of black and white to the means of pixels on such cells."""
     sums, counts = np.zeros(2), np.full(2, 1e-9)
     for k in range(count):

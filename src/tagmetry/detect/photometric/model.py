@@ -20,7 +20,7 @@ The numbers of the fit, in this order:
 
 import numpy as np
 
-from tagmetry.detect.photometric.kernel import kernel
+from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
 from tagmetry.geometry import Array
 
 BLACK, SLOPES, EXPONENT, BLUR, BOWS = 8, 10, 14, 15, 18
@@ -30,15 +30,15 @@ COUNT = 23
 @kernel
 def cells_at(fit: Array, x: float, y: float) -> tuple[float, float, float]:
     """Return the cell coordinates u, v of a place, and the denominator of the homography."""
-    down = fit[6] * x + fit[7] * y + 1.0
+    down = fit[6] * x + fit[7] * y + f32(1)
     u = (fit[0] * x + fit[1] * y + fit[2]) / down
     return u, (fit[3] * x + fit[4] * y + fit[5]) / down, down
 
 
 @kernel
-def bent_place(fit: Array, x: float, y: float) -> tuple[float, float]:
+def bent_place(fit: Array | Narrow, x: float, y: float) -> tuple[float, float]:
     """Return where a place would be if edges did not bow."""
-    far, saddle, twist = x * x + y * y - 1.0, x * x - y * y, 2 * x * y
+    far, saddle, twist = x * x + y * y - f32(1), x * x - y * y, f32(2) * x * y
     a, b, c, d, barrel = fit[BOWS], fit[BOWS + 1], fit[BOWS + 2], fit[BOWS + 3], fit[BOWS + 4]
     bent_x = x + far * (a + barrel * x) + c * saddle + d * twist
     return bent_x, y + far * (b + barrel * y) - c * twist + d * saddle

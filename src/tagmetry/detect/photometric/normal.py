@@ -3,12 +3,12 @@
 import numpy as np
 
 from tagmetry.detect.photometric import block as row
-from tagmetry.detect.photometric.kernel import kernel
+from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
 from tagmetry.geometry import Array
 
 
 @kernel
-def add_products(room: Array, sums: Array, count: int) -> None:
+def add_products(room: Narrow, sums: Array, count: int) -> None:
     """Add a block's products to the lower triangle, three rows by three: numbers are reused."""
     for a in range(0, count + 1, 3):
         rows = room[row.RESIDUAL + a * row.BLOCK :]
@@ -17,8 +17,8 @@ def add_products(room: Array, sums: Array, count: int) -> None:
 
 
 @kernel
-def _add_nine(rows: Array, columns: Array, sums: Array) -> None:
-    aa, ab, ac, ba, bb, bc, ca, cb, cc = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+def _add_nine(rows: Narrow, columns: Narrow, sums: Array) -> None:
+    aa = ab = ac = ba = bb = bc = ca = cb = cc = f32(0)
     for p in range(row.BLOCK):
         a, b, c = rows[p], rows[row.BLOCK + p], rows[2 * row.BLOCK + p]
         k, m, n = columns[p], columns[row.BLOCK + p], columns[2 * row.BLOCK + p]

@@ -5,10 +5,10 @@ import numpy as np
 from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.evaluate import write_cells
 from tagmetry.detect.photometric.ink import QUIET_CELLS, first_edge
-from tagmetry.detect.photometric.kernel import kernel
+from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
 from tagmetry.detect.photometric.model import cell_px
 from tagmetry.detect.photometric.sight import columns_in_sight, rows_in_sight, trusted_cells
-from tagmetry.detect.photometric.straight import straighten
+from tagmetry.detect.photometric.straight import bend_of, straighten
 from tagmetry.detect.photometric.view import View
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import IntArray
@@ -31,14 +31,15 @@ def gather(view: View, ink: Array, fit: Array, beside_px: float, wanted: int) ->
         beside_px: An edge is seen by pixels this near.
         wanted: About how many pixels to choose at most.
     """
-    grey, frame, lens, room, _ = view
+    grey, frame, _, room, _ = view
     cells, edges = len(ink), _edges_at_corners(ink)
     every = max(1, int(np.ceil(_beside_edges(ink, fit, frame[2], beside_px) / wanted)))
     rule = beside_px, _flat_among(cell_px(fit, frame[2]) * cells, every, wanted)
-    first_row, last_row = rows_in_sight(fit, frame, cells, grey.shape[0], lens)
+    narrow, bend = (fit.astype(np.float32), view.lens.astype(np.float32)), bend_of(view.lens)
+    first_row, last_row = rows_in_sight(fit, frame, cells, grey.shape[0], bend)
     count, lane, turn = 0, 0, 0
     for image_row in range(first_row, last_row + 1):
-        left, right = columns_in_sight(fit, frame, cells, grey.shape[1], lens, image_row)
+        left, right = columns_in_sight(fit, frame, cells, grey.shape[1], bend, image_row)
         left += int(every * ((image_row * _GOLDEN) % 1.0))
         for column in range(left, right + 1, every):
             room[row.X + lane] = (column - frame[0]) / frame[2]
@@ -46,15 +47,15 @@ def gather(view: View, ink: Array, fit: Array, beside_px: float, wanted: int) ->
             room[row.SEEN + lane] = grey[image_row, column]
             lane += 1
             if lane == row.BLOCK:
-                count = _chosen(view, fit, cells, edges, rule, turn, lane, count)
+                count = _chosen(view, narrow, cells, edges, rule, turn, lane, count)
                 lane, turn = 0, turn + row.BLOCK - 3
-    count = _chosen(view, fit, cells, edges, rule, turn, lane, count)
+    count = _chosen(view, narrow, cells, edges, rule, turn, lane, count)
     _end(view.pixels, count)
     return count
 
 
 @kernel
-def _end(pixels: Array, count: int) -> None:
+def _end(pixels: Narrow, count: int) -> None:
     """Fill the rest of the last block, so that nothing there is not a number."""
     for k in range(count, -(-count // row.BLOCK) * row.BLOCK):
         block, at = pixels[k // row.BLOCK], k % row.BLOCK
@@ -64,7 +65,7 @@ def _end(pixels: Array, count: int) -> None:
 @kernel
 def _chosen(
     view: View,
-    fit: Array,
+    narrow: tuple[Narrow, Narrow],
     cells: int,
     edges: IntArray,
     rule: tuple[float, int],
@@ -74,10 +75,11 @@ def _chosen(
 ) -> int:
     """Append those pixels of the room that tell; return how many there are now.
 
-    The rule says how near an edge pixels tell (px), and among how many flat ones one is taken.
+    The numbers of the fit and of the lens are of 32 bits. The rule says how near an edge pixels
+    tell (px), and among how many flat ones one is taken.
     """
     room, half_px, (beside_px, flat) = view.room, view.frame[2], rule
-    _look(room, view.lens, fit, cells, beside_px / half_px, flat, turn)
+    _look(room, narrow, cells, f32(beside_px / half_px), flat, turn)
     _overlook(room, cells, half_px)
     return _keep(room, lanes, edges, view.pixels, count)
 
@@ -121,53 +123,56 @@ def _edges_at_corners(ink: Array) -> IntArray:
 
 @kernel
 def _look(
-    room: Array, lens: Array, fit: Array, cells: int, reach: float, flat: int, turn: int
+    room: Narrow, narrow: tuple[Narrow, Narrow], cells: int, reach: f32, flat: int, turn: int
 ) -> None:
     """Write the nearest corner of cells to every pixel, and which edges there would count.
 
     Args:
         room: The block.
-        lens: See `straight_place`.
-        fit: The numbers.
+        narrow: The numbers of the fit and of the lens, of 32 bits.
         cells: Along a side of the picture and its quiet zone.
         reach: How near an edge a pixel sees it, half diagonals.
         flat: One of so many flat pixels is taken.
         turn: Which one of them.
     """
+    fit, lens = narrow
     straighten(room, lens)
     write_cells(room, fit)
+    past = f32(cells - 1)
     for p in range(row.BLOCK):
         u, v = room[row.U + p], room[row.V + p]
         ux, uy, vx, vy = room[row.UX + p], room[row.UY + p], room[row.VX + p], room[row.VY + p]
-        corner_u = np.rint(u) if 1.0 <= u <= cells - 1 else 1.0
-        corner_v = np.rint(v) if 1.0 <= v <= cells - 1 else 1.0
+        corner_u = np.rint(u) if f32(1) <= u <= past else f32(1)
+        corner_v = np.rint(v) if f32(1) <= v <= past else f32(1)
         past_u, past_v = u - corner_u, v - corner_v
         near_u = abs(past_u) < reach * np.sqrt(ux * ux + uy * uy)
         near_v = abs(past_v) < reach * np.sqrt(vx * vx + vy * vy)
-        meeting = (2.0 if past_v > 0 else 1.0) if near_u else 0.0
-        meeting += (8.0 if past_u > 0 else 4.0) if near_v else 0.0
-        meeting = 15.0 if near_u & near_v else meeting
-        meeting += FLAT if (p + turn) & (flat - 1) == 0 else 0.0
-        room[row.CORNER + p] = corner_u + cells * corner_v
+        meeting = (f32(2) if past_v > f32(0) else f32(1)) if near_u else f32(0)
+        meeting += (f32(8) if past_u > f32(0) else f32(4)) if near_v else f32(0)
+        meeting = f32(15) if near_u & near_v else meeting
+        meeting += f32(FLAT) if (p + turn) & (flat - 1) == 0 else f32(0)
+        room[row.CORNER + p] = corner_u + f32(cells) * corner_v
         room[row.MEETING + p] = meeting
 
 
 @kernel
-def _overlook(room: Array, cells: int, half_px: float) -> None:
+def _overlook(room: Narrow, cells: int, half_px: float) -> None:
     """Strike out the edges of pixels that lie outside, where the quiet zone is not trusted."""
+    low, high, half = f32(QUIET_CELLS), f32(cells - QUIET_CELLS), f32(half_px)
     for p in range(row.BLOCK):
         u, v, down = room[row.U + p], room[row.V + p], room[row.DOWN + p]
         ux, uy, vx, vy = room[row.UX + p], room[row.UY + p], room[row.VX + p], room[row.VY + p]
-        trusted_u = trusted_cells(np.sqrt(ux * ux + uy * uy) / half_px)
-        trusted_v = trusted_cells(np.sqrt(vx * vx + vy * vy) / half_px)
-        outside_u = max(QUIET_CELLS - u, u - (cells - QUIET_CELLS))
-        outside_v = max(QUIET_CELLS - v, v - (cells - QUIET_CELLS))
-        seen = (outside_u < trusted_u) & (outside_v < trusted_v) & (down > 0.0) & (down < 20.0)
-        room[row.MEETING + p] *= 1.0 if seen else 0.0
+        trusted_u = trusted_cells(np.sqrt(ux * ux + uy * uy) / half)
+        trusted_v = trusted_cells(np.sqrt(vx * vx + vy * vy) / half)
+        outside_u, outside_v = max(low - u, u - high), max(low - v, v - high)
+        seen = (
+            (outside_u < trusted_u) & (outside_v < trusted_v) & (down > f32(0)) & (down < f32(20))
+        )
+        room[row.MEETING + p] *= f32(1) if seen else f32(0)
 
 
 @kernel
-def _keep(room: Array, lanes: int, edges: IntArray, pixels: Array, count: int) -> int:
+def _keep(room: Narrow, lanes: int, edges: IntArray, pixels: Narrow, count: int) -> int:
     """Append the pixels of a block that tell; return how many there are now."""
     for p in range(lanes):
         block, at = pixels[count // row.BLOCK], count % row.BLOCK
@@ -189,12 +194,12 @@ def set_windows(view: View, fit: Array, count: int, all_changes: Array, edges: i
         all_changes: From `changes`.
         edges: How many edges of each direction a pixel sees.
     """
-    room, cells = view.room, all_changes.shape[3]
+    room, cells, narrow = view.room, all_changes.shape[3], fit.astype(np.float32)
     for b in range(-(-count // row.BLOCK)):
         pixel = view.pixels[b]
         for k in range(row.COUNTS):
             room[k] = pixel[k]
-        write_cells(room, fit)
+        write_cells(room, narrow)
         for p in range(row.BLOCK):
             pixel[row.COUNTS + p] = 1.0 if b * row.BLOCK + p < count else 0.0
             first_u = first_edge(room[row.U + p], edges, cells)

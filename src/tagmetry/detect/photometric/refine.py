@@ -133,7 +133,7 @@ def _fitted(
         grey, inks, (starts, frames, lenses, squares, bowing), threads
     )
     sound = _explains(fits, noises, moves_px)
-    covariances = joints[:, :8, :8].copy()
+    covariances = np.where(sound[:, None, None], joints[:, :8, :8], np.eye(8))
     tells = sound & (np.einsum("nii->ni", joints)[:, 8:] > 0).all(axis=1)
     if tells.any():
         places[tells], covariances[tells] = believed(

@@ -3,35 +3,37 @@
 import numpy as np
 
 from tagmetry.detect.photometric.ink import QUIET_CELLS
-from tagmetry.detect.photometric.kernel import kernel
+from tagmetry.detect.photometric.kernel import f32, kernel
 from tagmetry.detect.photometric.model import cell_px
-from tagmetry.detect.photometric.straight import bend_of
 from tagmetry.geometry import Array
 
-_REACH_PX = 3.0  # how far outside the picture pixels are looked at, at most
-_REACH_CELLS = 0.3  # and at least
-_CLEAR_PX = 1.5  # this much of the quiet zone may be blurred by what lies behind it
+_REACH_PX = f32(3.0)  # how far outside the picture pixels are looked at, at most
+_REACH_CELLS = f32(0.3)  # and at least
+_CLEAR_PX = f32(1.5)  # this much of the quiet zone may be blurred by what lies behind it
 _SPARE = 1.3  # cells are smaller where the marker is farther
 
 
 @kernel
-def trusted_cells(fineness: float) -> float:
+def trusted_cells(fineness: f32) -> f32:
     """Return how many cells of the quiet zone may be trusted, by the cells per pixel."""
-    return min(max(1.0 - _CLEAR_PX * fineness, _REACH_CELLS), _REACH_PX * fineness)
+    return min(max(f32(1) - _CLEAR_PX * fineness, _REACH_CELLS), _REACH_PX * fineness)
 
 
 @kernel
 def limits(fit: Array, half_px: float, cells: int) -> tuple[float, float]:
     """Return the first and last cell coordinate that is looked at."""
-    outside = min(_SPARE * trusted_cells(1.0 / cell_px(fit, half_px)), 1.0)
+    outside = min(_SPARE * float(trusted_cells(f32(1.0 / cell_px(fit, half_px)))), 1.0)
     return QUIET_CELLS - outside, cells - QUIET_CELLS + outside
 
 
 @kernel
 def rows_in_sight(
-    fit: Array, frame: Array, cells: int, height: int, lens: Array
+    fit: Array, frame: Array, cells: int, height: int, bend: float
 ) -> tuple[int, int]:
-    """Return the first and last row of the image that the picture may reach."""
+    """Return the first and last row of the image that the picture may reach.
+
+    `bend`: see `bend_of`.
+    """
     low, high = limits(fit, frame[2], cells)
     top, bottom = np.inf, -np.inf
     for u in (low, high):
@@ -40,18 +42,18 @@ def rows_in_sight(
             d, e, f = fit[3] - v * fit[6], fit[4] - v * fit[7], v - fit[5]
             y = (a * f - d * c) / (a * e - b * d)
             top, bottom = min(top, y), max(bottom, y)
-    return _whole(frame[1], frame[2], top - bend_of(lens), bottom + bend_of(lens), height)
+    return _whole(frame[1], frame[2], top - bend, bottom + bend, height)
 
 
 @kernel
 def columns_in_sight(
-    fit: Array, frame: Array, cells: int, width: int, lens: Array, image_row: int
+    fit: Array, frame: Array, cells: int, width: int, bend: float, image_row: int
 ) -> tuple[int, int]:
     """Return the first and last column of a row of the image that the picture may reach.
 
     u > low is (fit0 - low fit6) x + (fit1 - low fit7) y + fit2 - low > 0, and so on.
     """
-    bend, y = bend_of(lens), (image_row - frame[1]) / frame[2]
+    y = (image_row - frame[1]) / frame[2]
     low, high = limits(fit, frame[2], cells)
     left, right = -np.inf, np.inf
     for k in (0, 3):

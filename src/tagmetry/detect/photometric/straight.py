@@ -10,7 +10,7 @@ import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.detect.photometric import block as row
-from tagmetry.detect.photometric.kernel import kernel
+from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
 from tagmetry.geometry import Array
 
 _DEGREE = 5
@@ -64,30 +64,47 @@ def _scaled_like_image(coefficients: Array) -> Array:
 
 
 @kernel
-def straight_place(x: float, y: float, lens: Array) -> tuple[float, float]:
+def straight_place(x: float, y: float, lens: Array | Narrow) -> tuple[float, float]:
     """Return where a place of the image lies in the straight image; itself without a lens."""
     if len(lens) == 0:
         return x, y
-    to_x, to_y, term, power_x = 0.0, 0.0, 0, 1.0
-    for i in range(_DEGREE + 1):
-        power = power_x
-        for _ in range(_DEGREE + 1 - i):
-            to_x += lens[term, 0] * power
-            to_y += lens[term, 1] * power
-            power *= y
-            term += 1
-        power_x *= x
+    term, to_x, to_y = TERMS - 1, lens[TERMS - 1, 0], lens[TERMS - 1, 1]
+    for power_y in range(1, _DEGREE + 1):  # Horner's scheme in x, and within it in y
+        term -= 1
+        along_x, along_y = lens[term, 0], lens[term, 1]
+        for _ in range(power_y):
+            term -= 1
+            along_x, along_y = along_x * y + lens[term, 0], along_y * y + lens[term, 1]
+        to_x, to_y = to_x * x + along_x, to_y * x + along_y
     return to_x, to_y
 
 
 @kernel
-def straighten(room: Array, lens: Array) -> None:
-    """Replace the places of a block of pixels by those in the straight image."""
+def straighten(room: Narrow, lens: Narrow) -> None:
+    """Replace the places of a block of pixels by those in the straight image, as above."""
     if len(lens) == 0:
         return
+    for k in range(4 * row.BLOCK):
+        room[row.U + k] = f32(0)  # U, V; UX, UY are used for the inner sums
+    term = TERMS
+    for power_y in range(_DEGREE + 1):
+        for _ in range(power_y + 1):
+            term -= 1
+            _add_term(room, lens[term, 0], lens[term, 1])
+        for p in range(row.BLOCK):
+            room[row.U + p] = room[row.U + p] * room[row.X + p] + room[row.UX + p]
+            room[row.V + p] = room[row.V + p] * room[row.X + p] + room[row.UY + p]
+            room[row.UX + p], room[row.UY + p] = f32(0), f32(0)
+    for k in range(2 * row.BLOCK):
+        room[row.X + k] = room[row.U + k]
+
+
+@kernel
+def _add_term(room: Narrow, by_x: f32, by_y: f32) -> None:
+    """Multiply the inner sums by y, and add a coefficient to each."""
     for p in range(row.BLOCK):
-        x, y = straight_place(room[row.X + p], room[row.Y + p], lens)
-        room[row.X + p], room[row.Y + p] = x, y
+        room[row.UX + p] = room[row.UX + p] * room[row.Y + p] + by_x
+        room[row.UY + p] = room[row.UY + p] * room[row.Y + p] + by_y
 
 
 @kernel

@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from tagmetry.detect.photometric.kernel import Narrow
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 
@@ -20,5 +21,5 @@ class View(NamedTuple):
     grey: GreyPixels
     frame: Array
     lens: Array
-    room: Array
-    pixels: Array
+    room: Narrow
+    pixels: Narrow

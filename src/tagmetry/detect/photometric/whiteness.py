@@ -11,15 +11,14 @@ this bends what happens where edges cross, and is followed to the second order (
 
 from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.elementary import step_and_bell
-from tagmetry.detect.photometric.kernel import kernel
-from tagmetry.geometry import Array
+from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
 
 _BELL, _BEND = row.BELL_U - row.STEP_U, row.BEND_U - row.STEP_U  # the same for v
-_SIGHT = 6.0  # blurs; edges farther away are as good as infinitely far
+_SIGHT = f32(6.0)  # blurs; edges farther away are as good as infinitely far
 
 
 @kernel
-def write_whiteness(room: Array, edges: int) -> None:
+def write_whiteness(room: Narrow, edges: int) -> None:
     """Write how white pixels are, and its slopes per blur."""
     for k in range(edges):
         after = (k + 1) * row.BLOCK
@@ -42,17 +41,17 @@ def write_whiteness(room: Array, edges: int) -> None:
 
 
 @kernel
-def _write_steps(at: Array, first: Array, edge: int, sharp: Array, steps: Array) -> None:
+def _write_steps(at: Narrow, first: Narrow, edge: int, sharp: Narrow, steps: Narrow) -> None:
     """Write the step across one edge, its slope and its bend."""
     for p in range(row.BLOCK):
-        z = (at[p] - first[p] - edge) * sharp[p]
+        z = (at[p] - first[p] - f32(edge)) * sharp[p]
         z = min(max(z, -_SIGHT), _SIGHT)
         step, bell = step_and_bell(z)
         steps[p], steps[_BELL + p], steps[_BEND + p] = step, bell, z * bell
 
 
 @kernel
-def _clear(room: Array) -> None:
+def _clear(room: Narrow) -> None:
     for p in range(row.BLOCK):
         room[row.WHITE + p] = 0.0
         room[row.BY_U + p], room[row.BY_V + p] = 0.0, 0.0
@@ -61,7 +60,7 @@ def _clear(room: Array) -> None:
 
 
 @kernel
-def _add_corner(room: Array, changes: Array, steps_u: Array, steps_v: Array) -> None:
+def _add_corner(room: Narrow, changes: Narrow, steps_u: Narrow, steps_v: Narrow) -> None:
     """Add what one corner of cells contributes."""
     for p in range(row.BLOCK):
         correlation, change = room[row.CORRELATION + p], changes[p]
@@ -69,7 +68,7 @@ def _add_corner(room: Array, changes: Array, steps_u: Array, steps_v: Array) -> 
         step_v, bell_v = change * steps_v[p], change * steps_v[_BELL + p]
         bend_v = change * steps_v[_BEND + p]
         twist = correlation * bend_u * bend_v
-        room[row.WHITE + p] += step_u * step_v + correlation * (bell_u * bell_v + 0.5 * twist)
+        room[row.WHITE + p] += step_u * step_v + correlation * (bell_u * bell_v + f32(0.5) * twist)
         room[row.BY_U + p] += bell_u * step_v
         room[row.BY_V + p] += step_u * bell_v
         room[row.BY_BLUR_U + p] -= bend_u * step_v
