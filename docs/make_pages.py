@@ -14,6 +14,7 @@ import tagmetry.cli.main
 from tagmetry.link.layout import Layout
 from tagmetry.link.wire import BODIES, HEADER
 from tagmetry.live.messages import CONTRACT, Rule
+from tagmetry.live.page_types import page_types
 from tagmetry.markers import family, family_names
 
 DOCS = Path(__file__).parent
@@ -158,6 +159,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "docs/generated/forgiven.md": forgiven_bits,
     "docs/generated/live.md": live_messages,
     "docs/generated/wire.md": wire_tables,
+    "src/tagmetry/live/page/messages.d.ts": page_types,
 }
 
 

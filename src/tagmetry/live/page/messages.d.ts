@@ -1,0 +1,306 @@
+// What the server and the page say to each other, for editors and checkers of types.
+// Written by docs/make_pages.py from tagmetry.live.messages. Numbers that are not finite are null.
+
+/** The first message on every connection: who you are, and what there is. */
+export interface Welcome {
+  type: "Welcome";
+  /** What this page may do. */
+  role: "viewer" | "operator";
+  /** That can be chosen. */
+  scenarios: string[];
+  /** Half the floor's extent along x and y. */
+  floor_m: [number, number];
+  /** How often a page that drives says that it is there. */
+  beat_s: number;
+}
+
+/** One robot. */
+export interface LiveRobot {
+  /** Its own number. */
+  id: number;
+  /** What people call it; any text. */
+  name: string;
+  /** Its centre in the world. */
+  x_m: number;
+  /** Its centre in the world. */
+  y_m: number;
+  /** From the world's x, counter-clockwise. */
+  heading_rad: number;
+  /** Along its forward axis. */
+  speed_mps: number;
+  /** Of the circle that it stays in. */
+  radius_m: number;
+  /** Of its place, one standard deviation: long and short half axis, m, and the long one's direction, rad. */
+  ellipse: [number, number, number];
+  /** Since the last image that showed it. */
+  age_s: number;
+  /** The newest image shows it. */
+  is_seen: boolean;
+  /** It has to stand still. */
+  is_stopped: boolean;
+  /** The reasons, in words. */
+  why: string;
+  /** "own" while its controller drives; else what a person asked: to visit a place, to walk a path, to wait. */
+  task: "own" | "visit" | "walk" | "wait";
+  /** (x, y) of the way points that a person gave, the goal last; none otherwise. */
+  path_m: [number, number][];
+  /** (x, y, heading) as its wheels say, in its own frame; None before it told. */
+  odometry: [number, number, number] | null;
+  /** How fast its left and its right wheel turn, by its encoders; None before. */
+  wheels_radps: [number, number] | null;
+  /** As it told last; None before. */
+  battery_v: number | null;
+  /** Share of its packets that did not arrive. */
+  loss: number;
+  /** To the host and back; None before it was measured. */
+  round_trip_s: number | null;
+  /** Ids of the robots that it senses. */
+  neighbours: number[];
+}
+
+/** Where all robots are. */
+export interface World {
+  type: "World";
+  /** In the arena's clock. */
+  time_s: number;
+  /** By rising id; robots that were never seen are not among them. */
+  robots: LiveRobot[];
+  /** Names of the robots that were never seen. */
+  missing: string[];
+  /** The stop for all is pressed. */
+  is_stopped: boolean;
+  /** Who or what pressed it. */
+  why: string;
+}
+
+/** A number of the controllers that can be changed. */
+export interface LiveParameter {
+  /** With its unit. */
+  name: string;
+  /** As it is set. */
+  value: number;
+  /** That can be set. */
+  least: number;
+  /** That can be set. */
+  most: number;
+  /** In words. */
+  meaning: string;
+}
+
+/** What robots are among, and what can be set; told when it changes. */
+export interface Stage {
+  type: "Stage";
+  /** What runs. */
+  scenario: string;
+  /** Of the robots' sensor for neighbours, from centre to centre. */
+  reach_m: number;
+  /** (x, y) of the corners that robots stay within; none where there is no fence. */
+  fence_m: [number, number][];
+  /** Virtual obstacles: x, y and radius, m. */
+  discs: [number, number, number][];
+  /** Virtual obstacles: x and y of both ends, m. */
+  walls: [number, number, number, number][];
+  /** Of the controllers. */
+  parameters: LiveParameter[];
+}
+
+/** A marker in the camera's picture. */
+export interface LiveMarker {
+  /** Whose. */
+  robot_id: number;
+  /** In the picture as it is sent, clockwise from the marker's top left. */
+  corners_px: [number, number][];
+  /** A point before the robot, seen from the marker's centre. */
+  front_px: [number, number];
+}
+
+/** What the camera sees; on its way the JPEG follows the JSON in one binary message. */
+export interface Picture {
+  type: "Picture";
+  /** When it was taken, in the arena's clock. */
+  time_s: number;
+  /** The same in a clock of the server; `Seen` tells it back. */
+  taken_s: number;
+  /** Of the picture as it is sent. */
+  width_px: number;
+  /** Of the picture as it is sent. */
+  height_px: number;
+  /** That were found in it. */
+  markers: LiveMarker[];
+  /** The picture. */
+  jpeg: Blob;
+}
+
+/** How the measurement does. */
+export interface Health {
+  type: "Health";
+  /** What runs. */
+  scenario: string;
+  /** Images measured per second of the wall's clock. */
+  image_rate_hz: number;
+  /** How far the arena is behind the wall's clock. */
+  late_s: number;
+  /** Time that one image takes, the mean of the last second. */
+  turn_s: number;
+  /** Pictures made per second. */
+  picture_rate_hz: number;
+  /** Since the newest picture was taken; None before. */
+  picture_age_s: number | null;
+  /** Pages that are connected. */
+  viewers: number;
+  /** Name of the file that is being written; None while nothing is. */
+  recording: string | null;
+  /** What went wrong last; empty while all is well. */
+  notice: string;
+}
+
+/** How messages reach the pages. */
+export interface Delivery {
+  type: "Delivery";
+  /** That are connected. */
+  pages: number;
+  /** Messages per second that pages took, all together. */
+  told_hz: number;
+  /** Messages per second that a newer one replaced before a slow page took them. */
+  missed_hz: number;
+  /** From an image until a page shows its picture, the newest 200 times, as pages say; None before. */
+  shown_median_s: number | null;
+  /** What 99 of 100 do not exceed. */
+  shown_p99_s: number | null;
+}
+
+/** How far measured places are off over the floor, as `MeasureErrors` found it. */
+export interface FloorErrors {
+  type: "FloorErrors";
+  /** It is being found out; nothing is known yet. */
+  is_measuring: boolean;
+  /** Between the places. */
+  step_m: number;
+  /** Of the markers above the floor. */
+  height_m: number;
+  /** One for each place: x, y, the error along x and along y, and the stated standard deviation, m. */
+  errors: [number, number, number, number, number][];
+}
+
+/** What the page asked for last was not done. */
+export interface Refused {
+  type: "Refused";
+  /** In words. */
+  why: string;
+}
+
+/** The page that drives is open and looked at; without it for 300 ms, all robots stop. */
+export interface Beat {
+  type: "Beat";
+}
+
+/** The page shows a picture; it gets the next one only then, once it has said so. */
+export interface Seen {
+  type: "Seen";
+  /** The picture's. */
+  taken_s: number;
+}
+
+/** Stop all robots, and keep them stopped; who may look may stop. */
+export interface Stop {
+  type: "Stop";
+  /** Who or what asks for it. */
+  why?: string;
+}
+
+/** Let all robots move again. */
+export interface Release {
+  type: "Release";
+}
+
+/** Send a robot to a place, where it stays until it is resumed. */
+export interface GoTo {
+  type: "GoTo";
+  /** Which. */
+  robot_id: number;
+  /** In the world. */
+  x_m: number;
+  /** In the world. */
+  y_m: number;
+}
+
+/** Send a robot through points; it stays at the last until it is resumed. */
+export interface FollowPath {
+  type: "FollowPath";
+  /** Which. */
+  robot_id: number;
+  /** (x, y) in the world, 1 to 40 of them. */
+  points_m: [number, number][];
+}
+
+/** Let one robot stand still until it is resumed. */
+export interface Halt {
+  type: "Halt";
+  /** Which. */
+  robot_id: number;
+}
+
+/** Give a robot that was sent somewhere, or halted, back to its controller. */
+export interface Resume {
+  type: "Resume";
+  /** Which. */
+  robot_id: number;
+}
+
+/** Change a number of all controllers that have it. */
+export interface SetParameter {
+  type: "SetParameter";
+  /** One of those that the stage lists. */
+  name: string;
+  /** Within its range. */
+  value: number;
+}
+
+/** Begin another scenario. */
+export interface ChooseScenario {
+  type: "ChooseScenario";
+  /** One of those that the welcome lists. */
+  name: string;
+  /** How many. */
+  robots: number;
+}
+
+/** Measure the simulated floor's error map. */
+export interface MeasureErrors {
+  type: "MeasureErrors";
+}
+
+/** Record states and pictures into a new file, which the server names. */
+export interface StartRecording {
+  type: "StartRecording";
+}
+
+/** End the recording. */
+export interface StopRecording {
+  type: "StopRecording";
+}
+
+export type Told =
+  | Welcome
+  | World
+  | Stage
+  | Picture
+  | Health
+  | Delivery
+  | FloorErrors
+  | Refused;
+
+export type Asked =
+  | Beat
+  | Seen
+  | Stop
+  | Release
+  | GoTo
+  | FollowPath
+  | Halt
+  | Resume
+  | SetParameter
+  | ChooseScenario
+  | MeasureErrors
+  | StartRecording
+  | StopRecording;
