@@ -66,7 +66,8 @@ def test_the_command_writes_the_sources(tmp_path: Path) -> None:
     assert run(["arena", "client", str(tmp_path / "robot")]) == 0
     written = {path.name: path.read_bytes() for path in (tmp_path / "robot").iterdir()}
     assert sorted(written) == [
-        *("tagmetry_link.c", "tagmetry_link.h", "tagmetry_posix.c", "tagmetry_posix.h")
+        *("tagmetry_link.c", "tagmetry_link.h", "tagmetry_posix.c", "tagmetry_posix.h"),
+        *("tagmetry_twin.c", "tagmetry_twin.h"),
     ]
     assert all(content == (SOURCES / name).read_bytes() for name, content in written.items())
 

@@ -113,3 +113,9 @@ def test_programs_that_are_not_there_are_refused():
     unfiled = replace(twin, program=(), controller=lambda: lambda _view: Twist(0, 0))
     with pytest.raises(InputError, match=r"robot 0 steers by itself.*needs its controller's file"):
         TwinArena(Scenario((unfiled,), VIEW), processes=True)
+
+
+@pytest.mark.slow
+def test_a_whole_drive_of_leader_and_follower_is_the_same_to_the_last_bit():
+    here, apart = both(pair(0.1, loss=0.02), 15.0)
+    assert apart == here

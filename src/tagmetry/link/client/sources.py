@@ -4,7 +4,7 @@ from importlib.resources import files
 
 
 def client_sources() -> dict[str, bytes]:
-    """Return each file's name and content: the packets, the client, and POSIX sockets."""
+    """Return each file's name and content: the packets, the client, POSIX sockets, and the twin."""
     folder = files("tagmetry.link.client")
     return {
         one.name: one.read_bytes()

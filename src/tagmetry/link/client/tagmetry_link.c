@@ -283,7 +283,7 @@ int tm_due(tm_robot *r, uint8_t *out, uint64_t now_us) {
 
 int tm_may_move(const tm_robot *r, uint64_t now_us) {
     int64_t host_us = (int64_t)tm_host_us(r, now_us);
-    int is_held = r->command.valid_for_ms == 0 &&
+    int is_held = r->newest_us[TM_COMMAND] > 0 && r->command.valid_for_ms == 0 &&
                   host_us - (int64_t)r->newest_us[TM_COMMAND] <= TM_SILENCE_US;
     if (!r->is_linked || r->spoken_us == 0 || r->is_stopped || is_held) return 0;
     return host_us - (int64_t)r->spoken_us <= TM_SILENCE_US;

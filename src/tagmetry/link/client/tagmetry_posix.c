@@ -10,8 +10,17 @@
 #include <time.h>
 #include <unistd.h>
 
+static uint64_t held_us;
+static int is_held;
+
+void tm_hold_clock(uint64_t now_us) {
+    held_us = now_us;
+    is_held = 1;
+}
+
 uint64_t tm_now_us(void) {
     struct timespec now;
+    if (is_held) return held_us;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (uint64_t)now.tv_sec * 1000000u + (uint64_t)now.tv_nsec / 1000u;
 }

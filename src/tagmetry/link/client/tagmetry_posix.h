@@ -7,6 +7,9 @@
 /* A clock that only rises, in microseconds. */
 uint64_t tm_now_us(void);
 
+/* From now on the clock stands still between calls of this: for simulations. */
+void tm_hold_clock(uint64_t now_us);
+
 /* A socket to the host at an IPv4 address, or -1. */
 int tm_connect(const char *address, uint16_t port);
 
