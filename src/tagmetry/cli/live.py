@@ -1,7 +1,7 @@
 """`tagmetry live`: the arena in a browser; or, without one, as a short video and a summary."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -27,7 +27,13 @@ def live(  # noqa: PLR0913 (each argument is an option)
     ] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="0 for a free one.")] = 8765,
     browser: Annotated[bool, typer.Option(help="Open the page in the browser.")] = True,
-    pictures: Annotated[bool, typer.Option(help="Paint what the camera sees.")] = True,
+    pictures: Annotated[bool, typer.Option(help="Show what the camera sees.")] = True,
+    eye: Annotated[
+        Literal["corners", "pictures"],
+        typer.Option(
+            help="What is measured: the markers' corners with noise, or pictures by the detector."
+        ),
+    ] = "corners",
     recordings: Annotated[
         Path, typer.Option(help="Folder for what is recorded on the page.")
     ] = Path("recordings"),
@@ -53,6 +59,7 @@ def live(  # noqa: PLR0913 (each argument is an option)
         recordings,
         controllers=controller or (),
         pictures=pictures,
+        eye=eye,
     ) as page:
         _tell(page)
         if browser:

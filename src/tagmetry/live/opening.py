@@ -12,6 +12,7 @@ from tagmetry.live.access import Access
 from tagmetry.live.hub import Hub
 from tagmetry.live.rooms.every import opened_rooms
 from tagmetry.live.runner import LiveRunner
+from tagmetry.live.seeing import EyeKind
 from tagmetry.live.serving import listening, server
 
 
@@ -48,6 +49,7 @@ def opened_page(
     *,
     controllers: Sequence[Path] = (),
     pictures: bool = True,
+    eye: EyeKind = "corners",
 ) -> Iterator[LivePage]:
     """Give a page whose arena runs; it ends with the block.
 
@@ -58,7 +60,8 @@ def opened_page(
         port: To listen at; 0 for a free one.
         recordings: Folder for recordings.
         controllers: Files of users that can be chosen.
-        pictures: Paint what the camera sees.
+        pictures: Show what the camera sees.
+        eye: What is measured: corners with noise, or pictures by the detector.
 
     Raises:
         InputError: One of them cannot be used.
@@ -74,6 +77,7 @@ def opened_page(
                 hub.give,
                 controllers=controllers,
                 pictures=pictures,
+                eye=eye,
             ) as runner,
             opened_rooms(hub.give) as rooms,
         ):

@@ -37,6 +37,7 @@ from tagmetry.live.messages import (
 from tagmetry.live.orders import Order, Orders
 from tagmetry.live.recording import Recordings
 from tagmetry.live.repertoire import Repertoire
+from tagmetry.live.seeing import EyeKind
 from tagmetry.live.stage import Performance, performance
 from tagmetry.live.watch import Watch
 from tagmetry.pipeline.arena_twin.run import TICK_S
@@ -57,6 +58,7 @@ class LiveRunner:
         *,
         controllers: Sequence[Path] = (),
         pictures: bool = True,
+        eye: EyeKind = "corners",
     ) -> None:
         """Make everything ready.
 
@@ -66,13 +68,14 @@ class LiveRunner:
             recordings: Folder for what is recorded.
             give: Takes every message for the pages, and returns at once.
             controllers: Files of users that can be chosen.
-            pictures: Paint what the camera sees.
+            pictures: Show what the camera sees.
+            eye: What is measured.
 
         Raises:
             InputError: There is no such scenario, not for so many robots, or a file is broken.
         """
         self._repertoire = Repertoire(controllers)
-        self._pictures = pictures
+        self._pictures, self._eye = pictures, eye
         self._recordings = Recordings(recordings)
         self._feed = Feed(give, self._recordings)
         self._orders = Orders()
@@ -211,6 +214,6 @@ class LiveRunner:
             self._recordings.image(Image(pixels, look.time_s, "capture", source="twin"))
             self._feed.picture(look, pixels, show)
 
-        show = performance(name, scenario, give if self._pictures else None)
+        show = performance(name, scenario, give if self._pictures else None, self._eye)
         self._feed.stage(show)
         return show

@@ -2,17 +2,15 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import partial
-
-import numpy as np
 
 from tagmetry.arena import Roster
 from tagmetry.arena.controllers import ShieldRules
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.live.eye import Look, WatchedEye
-from tagmetry.live.painter import Painter, painting
+from tagmetry.live.painter import Painter
+from tagmetry.live.seeing import EyeKind, seeing
 from tagmetry.live.steered import Steered
-from tagmetry.pipeline.arena_twin import CornerEye, Scenario, TwinArena, TwinRobot
+from tagmetry.pipeline.arena_twin import Scenario, TwinArena, TwinRobot
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +41,10 @@ class Performance:
 
 
 def performance(
-    name: str, chosen: Scenario, give: Callable[[Look, AnyPixels], None] | None
+    name: str,
+    chosen: Scenario,
+    give: Callable[[Look, AnyPixels], None] | None,
+    eye: EyeKind = "corners",
 ) -> Performance:
     """Return a scenario that can begin before people.
 
@@ -51,14 +52,14 @@ def performance(
         name: Of the scenario.
         chosen: What runs.
         give: Takes the camera's pictures, in a thread of its own; None for no pictures.
+        eye: What is measured.
     """
     scenario, steered = steerable(chosen)
+    seen = seeing(eye, scenario)
+    arena = TwinArena(replace(scenario, image_rate_hz=seen.image_rate_hz), seen.eye)
+    painter = Painter(seen.eye, seen.prepare, give) if give is not None else None
     roster = Roster(tuple(one.robot for one in scenario.robots))
-    noise = np.random.default_rng(scenario.seed)
-    eye = WatchedEye(CornerEye(roster.robots, scenario.view, noise))
-    arena = TwinArena(scenario, eye)
-    painter = Painter(eye, partial(painting, roster.robots), give) if give is not None else None
-    return Performance(name, arena, steered, roster, eye, painter)
+    return Performance(name, arena, steered, roster, seen.eye, painter)
 
 
 def steerable(scenario: Scenario) -> tuple[Scenario, Mapping[int, Steered]]:
