@@ -15,6 +15,7 @@ _HOMES = {
     "seed001-slider": "seed001_slider",
     "seed001-rate": "seed001_rate",
     "seed001-following": "seed001_following",
+    "swarm": "swarm",
     "seed002-yaw": "seed002_yaw",
     "seed002-tilt": "seed002_tilt",
     "seed002-zones": "seed002_zones",

@@ -109,3 +109,36 @@ class FollowingMoment:
     odometry_heading_rad: float
     true_heading_rad: float
     touching: bool
+
+
+@dataclass(frozen=True)
+class SwarmPlace:
+    """Where one robot of a swarm is, about once a second.
+
+    Attributes:
+        task: What the swarm does.
+        robots: How many there are.
+        repeat: Which of the runs.
+        time_s: Since the simulation began.
+        robot: Its id.
+        x_m: Where it truly is.
+        y_m: The same.
+        nearest_m: To the nearest other one, from centre to centre.
+        off_m: From its place in the formation; NaN where there is none.
+        told: Of how many neighbours it was told.
+        has_touched: Whether it has touched another one so far.
+        cpu_s: Processor time of the whole simulation so far.
+    """
+
+    task: str
+    robots: int
+    repeat: int
+    time_s: float
+    robot: int
+    x_m: float
+    y_m: float
+    nearest_m: float
+    off_m: float
+    told: int
+    has_touched: bool
+    cpu_s: float

@@ -12,19 +12,20 @@ from tagmetry.twin.scenes.ready.building import UP, concrete, facing
 from tagmetry.twin.scenes.ready.photographer import machine_camera
 
 FAMILY, MARKER_SIZE_M, MOST_ROBOTS = "tag36h11", 0.09, 100
-_HEIGHT_M, _FIELD_OF_VIEW_DEG = 2.6, 70.0
+HEIGHT_M, _FIELD_OF_VIEW_DEG = 2.6, 70.0
 FLOOR_HALF_M = (1.6, 0.85)  # where robots are seen whole
+RIM_M = 0.15  # of the floor, where no robot starts
 
 
-def shot() -> Shot:
-    """Return the camera at its place: 1920x1080, 70 degrees, 2.6 m above the floor."""
-    above = looking(np.array([0.0, 0.0, _HEIGHT_M]), np.zeros(3))
+def shot(height_m: float = HEIGHT_M) -> Shot:
+    """Return the camera at its place: 1920x1080, 70 degrees, so high above the floor."""
+    above = looking(np.array([0.0, 0.0, height_m]), np.zeros(3))
     return machine_camera(Still(above), _FIELD_OF_VIEW_DEG)
 
 
-def view() -> OverheadView:
+def view(height_m: float = HEIGHT_M) -> OverheadView:
     """Return what the arena believes of the camera: the truth, without an error."""
-    own = shot()
+    own = shot(height_m)
     return OverheadView(own.camera, own.path.at(np.zeros(1))[0], np.zeros((6, 6)))
 
 
@@ -43,9 +44,14 @@ def robot(number: int) -> Robot:
     return Robot(number, f"robot {number}", design.diameter_m, FAMILY, number, MARKER_SIZE_M, mount)
 
 
-def scattered(count: int, rng: np.random.Generator, apart_m: float = 0.3) -> list[Place]:
+def scattered(
+    count: int,
+    rng: np.random.Generator,
+    apart_m: float = 0.3,
+    half_m: tuple[float, float] = FLOOR_HALF_M,
+) -> list[Place]:
     """Return places all over the floor, no two nearer than what room there is allows."""
-    half = np.array(FLOOR_HALF_M) - 0.15  # robots start whole within
+    half = np.array(half_m) - RIM_M  # robots start whole within
     columns = int(np.ceil(np.sqrt(count * half[0] / half[1])))
     rows = int(np.ceil(count / columns))
     cell_m = 2 * half / [columns, rows]
