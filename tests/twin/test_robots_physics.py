@@ -97,6 +97,57 @@ def test_it_stops_in_the_length_that_friction_needs(friction):
     assert stopped_m == pytest.approx(speed_mps**2 / (2 * friction * G_MPS2), rel=0.15)
 
 
+def test_it_brakes_with_all_its_motors_torque():
+    """v^2 / (2 a) with a = 2 T / (r m): a motor that brakes gives its stall torque at any speed."""
+    design = RobotDesign(stall_torque_nm=0.02, caster_friction=1e-4, gear_drag_nm=1e-6)
+    physics = alone(design)
+    physics.want(0, Twist(0.4, 0.0))
+    physics.step(4.0)
+    speed_mps, start = physics.twists()[0].speed_mps, physics.places()[0]
+    physics.want(0, Twist(0.0, 0.0))
+    physics.step(2.0)
+    pull_mps2 = 2 * 0.02 / DESIGN.drive.wheel_radius_m / DESIGN.moved_mass_kg
+    stopped_m = start.distance_m(physics.places()[0])
+    assert stopped_m == pytest.approx(speed_mps**2 / (2 * pull_mps2), rel=0.04)
+
+
+def test_it_starts_to_turn_as_its_inertia_lets_it():
+    """Both motors' pull at half a track, by the inertia of body, casters, wheels and rotors."""
+    design = RobotDesign(stall_torque_nm=0.01, caster_friction=1e-5, gear_drag_nm=1e-7)
+    physics = alone(design)
+    physics.want(0, Twist(0.0, 6.0))
+    physics.step(0.1)
+    radius_m, arm_m = DESIGN.drive.wheel_radius_m, DESIGN.drive.track_m / 2
+    caster_m, ball_kgm2 = 0.08 - 0.0125 - 0.005, 0.4 * 0.05 * radius_m**2
+    body = (0.8 - 0.02) * 0.08**2 / 2
+    casters = 2 * 0.01 * caster_m**2
+    wheels = 2 * (0.05 * arm_m**2 + ball_kgm2)
+    rolling = 2 * DESIGN.wheel_inertia_kgm2 * (arm_m / radius_m) ** 2
+    pull_nm = 2 * 0.01 / radius_m * arm_m
+    top_radps = DESIGN.drive.top_wheel_speed_radps * radius_m / arm_m
+    rate = pull_nm / (body + casters + wheels + rolling) / top_radps
+    expected_radps = top_radps * (1 - np.exp(-rate * 0.1))
+    assert physics.twists()[0].turn_rate_radps == pytest.approx(expected_radps, rel=0.03)
+
+
+@pytest.mark.parametrize(("share", "slides"), [(0.7, False), (1.4, True)])
+def test_a_bend_slides_where_friction_cannot_hold_it(share, slides):
+    """v^2 / R = mu g is the fastest that friction holds; the casters hold nothing."""
+    friction, radius_m = 0.05, 0.3
+    speed_mps = float(np.sqrt(share * friction * G_MPS2 * radius_m))
+    design = RobotDesign(caster_friction=1e-4)
+    physics = alone(design)
+    physics.want(0, Twist(speed_mps, speed_mps / radius_m))
+    physics.step(2.0)
+    physics._patches = grips(friction)
+    start = physics.places()[0]
+    quarter_s = np.pi / 2 * radius_m / speed_mps
+    physics.step(quarter_s)
+    end = physics.places()[0].seen_from(start)
+    off_m = np.hypot(end.x_m - radius_m, end.y_m - radius_m)
+    assert off_m > 0.05 if slides else off_m < 0.02
+
+
 def test_two_coasting_robots_keep_their_momentum_when_they_meet():
     slick = RobotDesign(caster_friction=1e-5)
     physics = RobotsPhysics([(slick, HERE), (slick, Place(0.5, 0.0, 0.0))], patches=grips(1e-5))
