@@ -22,8 +22,8 @@ class LensReading:
         sd_deg: Its standard deviation as stated.
         bound_deg: Cramer-Rao bound of the turn's standard deviation at this pose; NaN elsewhere.
         scanned: Images until it was found.
-        images: Images until the result.
-        simulated_s: Time until the result, at 30 images per second.
+        images: Images until the result, those of a mean too.
+        simulated_s: Time until it converged, at 30 images per second.
         busy_s: Computing time per image.
     """
 

@@ -19,6 +19,7 @@ from tagmetry.lens.scan import quick_scan, search_around, seed_scan
 from tagmetry.lens.seed import SeedRule, real_depth_m
 from tagmetry.lens.setting import LensSetting
 from tagmetry.lens.sharpness import marker_blur_px
+from tagmetry.lens.together import together
 from tagmetry.lens.zoom_lens import ZoomLens
 
 __all__ = [
@@ -54,4 +55,5 @@ __all__ = [
     "real_depth_m",
     "search_around",
     "seed_scan",
+    "together",
 ]

@@ -32,18 +32,22 @@ class Measured:
 
     Attributes:
         setting: The zoom and focus that it was taken at.
-        detection: Where it was in the image.
+        seen: Where the detector found it; its covariance is of the noise alone.
+        detection: The same, with what no noise tells in its covariance.
         pose: Both hypotheses, with the corners' part of the covariance.
         covariance: Of the best hypothesis with everything in it, shape (6, 6), (translation,
             rotation vector) on the left in the camera frame, m and rad.
         blur_px: Standard deviation of its blur in the image; NaN where it was not measured.
+        images: How many images it is the mean of.
     """
 
     setting: LensSetting
+    seen: Detection
     detection: Detection
     pose: MarkerPose
     covariance: Array
     blur_px: float
+    images: int = 1
 
     @property
     def T_camera_marker(self) -> RigidTransform:  # noqa: N802 (frames are named so)
@@ -91,13 +95,13 @@ def measured(
         blur_px: Its blur, see `marker_blur_px`; where it is not known it is taken to be sharp.
     """
     camera = lens.camera_at(setting)
-    seen = _with_model_error(detection, lens, marker, setting, blur_px)
-    pose = estimate_pose(seen, camera, marker.size_m)
+    known = _with_model_error(detection, lens, marker, setting, blur_px)
+    pose = estimate_pose(known, camera, marker.size_m)
     if not pose.hypotheses:
         return None
-    covariance = pose.covariance + _of_calibration_and_size(pose, seen, camera, marker)
+    covariance = pose.covariance + _of_calibration_and_size(pose, known, camera, marker)
     covariance = covariance + _of_alternatives(pose)
-    return Measured(setting, seen, pose, covariance, blur_px)
+    return Measured(setting, detection, known, pose, covariance, blur_px)
 
 
 def _with_model_error(

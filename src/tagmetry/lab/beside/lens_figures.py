@@ -78,7 +78,7 @@ def lens_figure(
         return figure
 
     told = f"Mean of five and their range. Dotted: {limit:g}, what the paper says."
-    told += " Dashed: 1.96 times the Cramer-Rao bound." if bounded else ""
+    told += " Dashed: 1.96 times one image's Cramer-Rao bound." if bounded else ""
     return ReportFigure(f"seed000_figure{number}", f"Figure {number}: {title}", told, draw)
 
 
@@ -131,6 +131,10 @@ def _curve(
 
 def _bound(axes: "Axes", readings: LensReadings, against: str, color: str) -> None:
     parts = readings.by(against)
-    bound = np.array([1.96 * np.nanmean(part.column("bound_deg")) for part in parts.values()])
+    bound = np.array([1.96 * _rms(part.column("bound_deg")) for part in parts.values()])
     for sign in (1, -1):
         axes.plot(np.array(list(parts)), sign * bound, "--", lw=1, color=color)
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.nanmean(values**2)))

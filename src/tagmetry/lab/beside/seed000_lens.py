@@ -21,6 +21,7 @@ from tagmetry.record.calibration_report.tables import Cell, ReportTable
 _DEPTH_PERCENT = 0.3
 _TURN_DEG = 0.5
 _BOUNDS = 1.5
+_OBLIQUE_DEG = 20.0  # from here on the paper promises more
 _CONVERGED_S = 0.5
 _MEDIAN_SCAN = 5
 _COVERED = (0.90, 0.98)
@@ -30,7 +31,8 @@ _SETUP = (
     "Every run begins with the camera as it is switched on: zoom 100, focus 0, auto modes on. The "
     "marker stands up to 1 % of its depth aside and leans by up to 1 degree. Times are of the "
     "images, at 30 per second, stale ones counted. Its steps wait for each command to show, which "
-    "the paper does not tell, and count their own images only."
+    "the paper does not tell, and count their own images only. Where the turn is not known to 0.3 "
+    "degrees when the measurement has converged, ours is the mean of up to eight images."
 )
 _FLIPS = (
     "Near the frontal view the two poses of a flat marker can be told apart by perspective only; "
@@ -82,16 +84,21 @@ def _turn_check(readings: LensReadings) -> Check:
     worse, flips, total = 0, 0, 0
     for part in _conditions(readings):
         flipped = _is_flipped(part)
-        errors = part.errors_deg[~flipped & np.isfinite(part.errors_deg)]
-        allowed = max(_TURN_DEG, _BOUNDS * float(np.nanmean(part.column("bound_deg"))))
-        worse += bool(len(errors) and np.sqrt(np.mean(errors**2)) > allowed)
+        worse += bool(_rms(part.errors_deg[~flipped]) > _allowed_deg(part))
         flips, total = flips + int(flipped.sum()), total + len(flipped)
     return Check(
         "turn at 0.05, 0.55 and 1.05 m, root mean square of five",
-        f"within {_TURN_DEG} degrees or {_BOUNDS} bounds, the larger",
+        f"within {_TURN_DEG} degrees or {_BOUNDS} bounds, the larger, and what is published",
         f"{worse} of {len(_conditions(readings))} conditions worse; {flips} of {total} flipped",
         worse == 0,
     )
+
+
+def _allowed_deg(part: LensReadings) -> float:
+    is_oblique = part.rows[0].turn_deg >= _OBLIQUE_DEG
+    published = seed000().said("14" if is_oblique else "14 near frontal", "turn_deg").at
+    bound_deg = _rms(part.column("bound_deg"))
+    return min(max(_TURN_DEG, _BOUNDS * bound_deg), published)
 
 
 def _time_checks(micro: LensReadings) -> Iterator[Check]:
@@ -168,6 +175,7 @@ def _turns(rows: Sequence[LensReading]) -> ReportTable:
     header = (
         "turn degrees", "depth m", "our rms error degrees", "bound degrees", "stated degrees",
         "flipped", "its steps' rms error degrees", "our time s", "its steps' time s",
+        "our images in all",
     )  # fmt: skip
     lines = [_turn_line(part) for part in _conditions(result_readings(rows, figure="14"))]
     title = "Figures 14 and 15: published 1 degree from 20 to 65, 2.5 below 20; within 0.6 s"
@@ -181,12 +189,13 @@ def _turn_line(part: LensReadings) -> tuple[Cell, ...]:
         part.rows[0].turn_deg,
         part.rows[0].depth_m,
         _shown(_rms(ours.errors_deg[~flipped])),
-        _shown(float(np.mean(ours.column("bound_deg")))),
+        _shown(_rms(ours.column("bound_deg"))),
         _shown(float(np.median(ours.column("sd_deg")))),
         f"{int(flipped.sum())} of {len(flipped)}",
         _shown(_rms(paper.errors_deg)),
         _shown(float(ours.column("simulated_s").mean())),
         _shown(float(paper.column("simulated_s").mean())),
+        _shown(float(ours.column("images").mean())),
     )
 
 

@@ -71,15 +71,14 @@ def measure(case: Case, seed: int) -> Sequence[LensReading]:
     """Return five results; for figure 13 every image of the iteration too."""
     rng = np.random.default_rng(seed)
     stand = Stand(case.size_m, case.depth_m, case.turn_deg)
+    return [row for repeat in range(REPEATS) for row in _run(case, stand, repeat, rng)]
+
+
+def _run(case: Case, stand: Stand, repeat: int, rng: np.random.Generator) -> Iterator[LensReading]:
+    T_camera_marker = stand.placed(rng)
     own = case.method == "tagmetry"
-    bound_deg = turn_bound_deg(webcam_lens(), stand) if own else float("nan")
-    return [row for repeat in range(REPEATS) for row in _run(case, stand, repeat, bound_deg, rng)]
-
-
-def _run(
-    case: Case, stand: Stand, repeat: int, bound_deg: float, rng: np.random.Generator
-) -> Iterator[LensReading]:
-    camera = camera_before(stand, stand.placed(rng), int(rng.integers(2**31)))
+    bound_deg = turn_bound_deg(webcam_lens(), stand, T_camera_marker) if own else float("nan")
+    camera = camera_before(stand, T_camera_marker, int(rng.integers(2**31)))
     steps = list(_steps(case, stand, camera))
     scanned = sum(step.phase == "scan" for step in steps)
     if case.figure == "13":
@@ -108,7 +107,8 @@ def _row(
     found, own, nothing = step.found, case.method == "tagmetry", float("nan")
     counts = found is not None and (number >= 0 or step.is_final)
     since = [one.image.sequence for one in steps]
-    passed_s = (step.image.sequence - since[0] + 1) * _PERIOD_S
+    converged = next((one.image.sequence for one in steps if one.is_final), since[-1])
+    passed_s = (min(step.image.sequence, converged) - since[0] + 1) * _PERIOD_S
     depth_m, turn_deg, sd_m, sd_deg = nothing, nothing, nothing, nothing
     if found is not None and counts:
         depth_m, turn_deg = found.depth_m, turn_of(found.T_camera_marker)

@@ -76,14 +76,12 @@ def turn_of(T_camera_marker: RigidTransform) -> float:
     return turn_about_y_deg(T_camera_marker)
 
 
-def turn_bound_deg(lens: ZoomLens, stand: Stand) -> float:
+def turn_bound_deg(lens: ZoomLens, stand: Stand, T_camera_marker: RigidTransform) -> float:
     """Return the Cramer-Rao bound of the turn's standard deviation at the best setting.
 
-    It holds for one image, exact calibration, and the right one of the two poses.
+    It holds for one image, exact calibration, the right one of the two poses, and errors so small
+    that the outline changes in proportion: not within a degree or two of the frontal view.
     """
-    T_camera_marker = Stand(stand.size_m, stand.depth_m, max(stand.turn_deg, 0.5)).placed(
-        np.random.default_rng(0)
-    )
     at = Whereabouts(np.asarray(T_camera_marker.translation), float(np.radians(stand.turn_deg)))
     chosen = best_setting(lens, stand.marker, at)
     resolved = min(chosen.zoom_percent, lens.native_percent)

@@ -20,6 +20,7 @@ from tagmetry.lens import (
     better_exposure_s,
     marker_levels,
     next_setting,
+    together,
 )
 from tagmetry.pipeline.lens.drive import Drive
 from tagmetry.pipeline.lens.evidence import disobedience, shows_zoom, telling_zoom
@@ -85,13 +86,14 @@ class _State:
             self._drive.go(wanted)
             return step
         before, self._last = self._last, step.found
-        if before is None or not _agree(before, step.found):
+        if before is None or not agree(before, step.found):
             return step
         if not self._drive.zoom_is_proven:
             self._elsewhere, self._last = step.found, None
             self._drive.go(telling_zoom(self._task.lens, step.found))
             return step
-        return replace(step, is_final=True, reason=self._why_final(step.found))
+        both = together(before, step.found, self._task.lens, self._task.marker)
+        return replace(step, found=both, is_final=True, reason=self._why_final(both))
 
     def _is_late(self, found: Measured) -> bool:
         """Say whether the image does not show the commanded setting yet."""
@@ -132,7 +134,7 @@ class _State:
         return "" if reached else "converged; no setting promises less uncertainty than this"
 
 
-def _agree(before: Measured, now: Measured) -> bool:
+def agree(before: Measured, now: Measured) -> bool:
     """Say whether two places differ by no more than the noise that both have."""
     moved_m = np.asarray(now.T_camera_marker.translation - before.T_camera_marker.translation)
     covariance = (before.pose.covariance + now.pose.covariance)[:3, :3]

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from tagmetry.camera import ControlledSource, restored
 from tagmetry.lens import Lag, LensSetting, quick_scan
+from tagmetry.pipeline.lens.average import average
 from tagmetry.pipeline.lens.converge import converge
 from tagmetry.pipeline.lens.drive import Drive
 from tagmetry.pipeline.lens.follow import follow
@@ -77,6 +78,8 @@ def _measured(
         last = yield from _passed_on(search(task, drive, plan, "reacquire"))
     if tracks and last.found is not None:
         yield from follow(task, drive, last.found, last.image.time_s)
+    elif last.is_final and last.found is not None:
+        yield from average(task, drive, last.found, last.reason)
 
 
 def _passed_on(steps: Iterator[LensStep]) -> Generator[LensStep, None, LensStep]:

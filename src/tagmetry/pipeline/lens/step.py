@@ -8,7 +8,7 @@ import numpy as np
 from tagmetry.camera import Image
 from tagmetry.lens import LensSetting, Measured
 
-Phase = Literal["scan", "iterate", "track", "reacquire"]
+Phase = Literal["scan", "iterate", "average", "track", "reacquire"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,7 +21,7 @@ class LensStep:
         setting: What was in effect for it, as far as the camera's lag tells.
         is_settled: Whether that is what was commanded, so that a measurement may be trusted.
         found: The marker, where it was seen.
-        is_final: The marker's measurement has converged with this image.
+        is_final: The measurement has converged; those averaged after it are final too, and surer.
         busy_s: Computing time, of all threads together.
         reason: Why nothing was found, or why this is the last step; empty otherwise.
     """
@@ -63,6 +63,7 @@ def _marker_table(found: Measured) -> dict[str, Any]:
         "rotation_xyzw": T_camera_marker.rotation.as_quat(canonical=True).tolist(),
         "covariance": found.covariance.tolist(),
         "turn_sd_rad": found.turn_sd_rad,
+        "images": found.images,
         "ambiguity": found.pose.ambiguity,
         "blur_px": found.blur_px if np.isfinite(found.blur_px) else None,
     }

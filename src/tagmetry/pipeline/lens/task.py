@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from time import process_time
 from typing import Protocol
 
+import numpy as np
+
 from tagmetry.camera import Camera
 from tagmetry.detect import Detection
 from tagmetry.errors import InputError
@@ -18,6 +20,8 @@ from tagmetry.lens import (
 )
 from tagmetry.pipeline.lens.drive import Taken
 from tagmetry.pipeline.lens.step import LensStep, Phase
+
+_WANTED_TURN_RAD = float(np.radians(0.3))
 
 
 class Finder(Protocol):
@@ -37,6 +41,9 @@ class LensTask:
         marker: Their size.
         marker_id: Which one; any, where None.
         wanted_share: Standard deviation of the depth to be reached, as a share of it.
+        wanted_turn_rad: Standard deviation of the turn to be reached, by averaging where one
+            image does not.
+        most_averaged: Images that are averaged for that at most.
         most_images: After how many images without the marker the search is given up.
     """
 
@@ -45,13 +52,18 @@ class LensTask:
     marker: MarkerKind
     marker_id: int | None = None
     wanted_share: float = 1e-3
+    wanted_turn_rad: float = _WANTED_TURN_RAD
+    most_averaged: int = 8
     most_images: int = 150
 
     def __post_init__(self) -> None:
         if not self.wanted_share > 0:
             raise InputError(f"wanted_share must be positive, got {self.wanted_share}")
-        if self.most_images < 1:
-            raise InputError(f"most_images must be 1 or more, got {self.most_images}")
+        if not self.wanted_turn_rad > 0:
+            raise InputError(f"wanted_turn_rad must be positive, got {self.wanted_turn_rad}")
+        for name in ("most_averaged", "most_images"):
+            if getattr(self, name) < 1:
+                raise InputError(f"{name} must be 1 or more, got {getattr(self, name)}")
 
     def look(self, taken: Taken, phase: Phase) -> LensStep:
         """Return what an image shows of the marker, with the pose at the setting in effect."""
