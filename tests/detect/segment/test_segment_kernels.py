@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from tagmetry.detect.segment.corners import far_points, four_corners
+from tagmetry.detect.segment.dark import columns_and_rows, dark_bits, row_shift, thinned
 from tagmetry.detect.segment.distinct import distinct
-from tagmetry.detect.segment.mask import dark_mask
-from tagmetry.detect.segment.outline import at_level, midway, steps, walk
+from tagmetry.detect.segment.outline import at_level, crack_at, midway, steps, walk
 from tagmetry.detect.segment.starts import starts
 from tagmetry.detect.segment.tiles import Extremes, Tiles, noise_gate, tile_extremes
 
@@ -15,10 +15,15 @@ RNG = np.random.default_rng(0)
 SIZES = [(4, 4), (5, 9), (8, 8), (31, 70), (48, 64)]
 
 
-def mask_of(dark: np.ndarray) -> np.ndarray:
-    """A mask with its rim, as `dark_mask` makes it."""
+def bits_of(dark: np.ndarray) -> np.ndarray:
+    """What is dark, as `dark_bits` gives it."""
     levels = np.full((-(-dark.shape[0] // 4), -(-dark.shape[1] // 4)), 128, np.uint8)
-    return dark_mask(np.where(dark, 10, 200).astype(np.uint8), levels)
+    return dark_bits(np.where(dark, 10, 200).astype(np.uint8), levels)
+
+
+def unpacked(bits: np.ndarray) -> np.ndarray:
+    """A byte for each bit, with the rim."""
+    return np.unpackbits(bits, axis=1, bitorder="little")
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -41,44 +46,52 @@ def test_noise_alone_hardly_passes_the_gate(noise: float) -> None:
     assert gate < 9 * noise  # and a marker of ten times the noise does
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_a_mask_is_what_lies_below_the_levels(size: tuple[int, int]) -> None:
+@pytest.mark.parametrize("size", [*SIZES, (7, 62), (7, 63)])
+def test_dark_is_what_lies_below_the_levels(size: tuple[int, int]) -> None:
     grey = RNG.integers(0, 256, size, dtype=np.uint8)
     levels = RNG.integers(0, 256, (-(-size[0] // 4), -(-size[1] // 4)), dtype=np.uint8)
-    mask = dark_mask(grey, levels)
+    bits = dark_bits(grey, levels)
     expected = grey < np.kron(levels, np.ones((4, 4), np.uint8))[: size[0], : size[1]]
+    mask = unpacked(bits)
     np.testing.assert_array_equal(mask[1 : size[0] + 1, 1 : size[1] + 1], expected)
     assert mask.sum() == expected.sum()
-    assert mask.shape[1] % 8 == 0
+    assert mask.shape[1] == 2 ** row_shift(bits)
 
 
-def beginnings(mask: np.ndarray) -> np.ndarray:
-    """All places where an outline of a mask may begin, whatever the grey values are."""
-    grey = np.zeros((mask.shape[0] - 2, mask.shape[1] - 2), np.uint8)
-    return starts(mask, grey, tile_extremes(grey)[0], mask.size)
+@pytest.mark.parametrize("size", [*SIZES, (70, 200)])
+def test_thinned_is_what_opencv_erodes(size: tuple[int, int]) -> None:
+    bits = bits_of(RNG.random(size) < 0.9)
+    expected = cv2.erode(unpacked(bits), np.ones((3, 3), np.uint8))
+    np.testing.assert_array_equal(unpacked(thinned(bits)), expected)
 
 
-def walk_on(mask: np.ndarray, start: np.ndarray, cracks: np.ndarray) -> int:
-    """Walk on a mask with rows, and return how many cracks were written."""
-    width = mask.shape[1]
-    return walk(mask.reshape(-1), width, steps(width), start, cracks)
+def beginnings(bits: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+    """All places where an outline may begin, whatever the grey values are."""
+    grey = np.zeros(shape, np.uint8)
+    return starts(bits, grey, tile_extremes(grey)[0], 0.5, 8 * bits.size)
 
 
-def walked(mask: np.ndarray) -> tuple[list[np.ndarray], int]:
-    """All outlines of a mask as cracks (n, 3), and how many cracks were written in all."""
-    outlines, count = [], 0
-    for start in beginnings(mask):
-        cracks = np.full((mask.size, 3), -1, np.int32)
-        length = walk_on(mask, start, cracks)
-        count += np.count_nonzero(cracks[:, 2] >= 0)
+def walk_on(bits: np.ndarray, marks: np.ndarray, start: np.uint64, cracks: np.ndarray) -> int:
+    """Walk on bits with rows, and return how many cracks were written."""
+    return walk(bits.reshape(-1), marks, steps(8 * bits.shape[1]), start, cracks)
+
+
+def walked(dark: np.ndarray) -> tuple[list[np.ndarray], int]:
+    """All outlines of what is dark as (column, row, side), and how many cracks were written."""
+    outlines, count, bits = [], 0, bits_of(dark)
+    marks, nothing = np.zeros(bits.size, np.uint8), np.uint64(2**64 - 1)
+    for start in beginnings(bits, dark.shape):
+        cracks = np.full(8 * bits.size, nothing)
+        length = walk_on(bits, marks, start, cracks)
+        count += np.count_nonzero(cracks != nothing)
         if length:
             outlines.append(cracks[:length])
     return outlines, count
 
 
-def middles(cracks: np.ndarray) -> np.ndarray:
+def middles(cracks: np.ndarray, dark: np.ndarray) -> np.ndarray:
     points = np.empty((len(cracks), 2))
-    midway(cracks, 1, points)
+    midway(cracks, row_shift(bits_of(dark)), 1, points)
     return points
 
 
@@ -88,15 +101,26 @@ def area(points: np.ndarray) -> float:
     return 0.5 * float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
 
 
+def is_covered(mask: np.ndarray, row: int, column: int) -> bool:
+    """Whether a run has a one above it, within eight pixels and a word of 64."""
+    for x in range(column, min(column + 8, (column // 64 + 1) * 64)):
+        if not mask[row, x] or mask[row - 1, x]:
+            return bool(mask[row, x])
+    return False
+
+
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
-@pytest.mark.parametrize("size", SIZES)
-def test_outlines_may_begin_where_left_and_above_are_bright(
+@pytest.mark.parametrize("size", [*SIZES, (9, 130)])
+def test_outlines_may_begin_at_runs_of_dark_with_none_above(
     size: tuple[int, int], share: float
 ) -> None:
-    mask = mask_of(RNG.random(size) < share)
-    first = (mask[1:, 1:] == 1) & (mask[1:, :-1] == 0) & (mask[:-1, 1:] == 0)
-    rows, columns = np.nonzero(first)
-    np.testing.assert_array_equal(beginnings(mask), np.stack([columns, rows], axis=1) + 1)
+    bits = bits_of(RNG.random(size) < share)
+    mask = unpacked(bits)
+    rows, columns = np.nonzero((mask[1:, 1:] == 1) & (mask[1:, :-1] == 0))
+    runs = np.stack([columns, rows], axis=1)
+    expected = [(x, y) for x, y in runs.tolist() if not is_covered(mask, y + 1, x + 1)]
+    begins = columns_and_rows(beginnings(bits, size), bits)
+    np.testing.assert_array_equal(begins, np.array(expected).reshape(-1, 2))
 
 
 @pytest.mark.parametrize("least", [0, 99, 100, 101, 255])
@@ -105,29 +129,40 @@ def test_outlines_begin_where_the_image_steps_down(least: int) -> None:
     grey = np.full((24, 48), 160, np.uint8)
     grey[8:18, 8:18] = 60
     grey[8:18, 30:40] = 125 - np.arange(10)[:, None]
-    mask = mask_of(grey < 130)
-    steps = np.full((6, 12), least, np.uint8)
-    begins = starts(mask, grey, steps, 100).tolist()
-    assert ([9, 9] in begins) == (least <= 100)
-    assert ([31, 9] in begins) == (least == 0)
+    bits, ranges = bits_of(grey < 130), np.full((6, 12), 255, np.uint8)
+    places = starts(bits, grey, ranges, (least + 0.5) / 255, 100)
+    begins = columns_and_rows(places, bits).tolist()
+    assert ([8, 8] in begins) == (least <= 100)
+    assert ([30, 8] in begins) == (least == 0)
+
+
+@pytest.mark.parametrize(("x", "y"), [(8, 7), (8, 5), (7, 8), (5, 8)])
+def test_what_is_bright_within_three_pixels_above_or_left_counts(x: int, y: int) -> None:
+    grey = np.full((24, 24), 100, np.uint8)
+    grey[8:18, 8:18] = 60
+    grey[y, x] = 240
+    bits, ranges = bits_of(grey < 80), np.full((6, 6), 180, np.uint8)
+    assert columns_and_rows(starts(bits, grey, ranges, 1.0, 9), bits).tolist() == [[8, 8]]
+    assert len(starts(bits, grey, ranges + 1, 1.0, 9)) == 0
 
 
 def test_no_more_starts_are_given_than_asked_for() -> None:
-    mask = mask_of(np.indices((20, 20)).sum(axis=0) % 2 == 0)
-    grey, steps = np.zeros((20, 20), np.uint8), np.zeros((5, 5), np.uint8)
-    assert len(starts(mask, grey, steps, 7)) == 7
-    assert len(starts(mask, grey, steps, 10_000)) == 200
+    bits = bits_of(np.indices((20, 20)).sum(axis=0) % 2 == 0)
+    grey, ranges = np.zeros((20, 20), np.uint8), np.zeros((5, 5), np.uint8)
+    assert len(starts(bits, grey, ranges, 0.5, 7)) == 7
+    assert len(starts(bits, grey, ranges, 0.5, 10_000)) == 200
 
 
 @pytest.mark.parametrize("share", [0.3, 0.5, 0.6, 0.7])
 def test_one_outline_around_each_of_opencv_s_components(share: float) -> None:
-    mask = mask_of(RNG.random((60, 90)) < share)
-    count, labels = cv2.connectedComponents(mask, connectivity=4)
-    outlines, _ = walked(mask)
-    outer = [cracks for cracks in outlines if area(middles(cracks)) > 0]
-    around = [labels[cracks[:, 1], cracks[:, 0]] for cracks in outer]
-    assert all(len(set(own.tolist())) == 1 for own in around)
-    assert sorted(own[0] for own in around) == list(range(1, count))
+    dark = RNG.random((60, 90)) < share
+    count, labels = cv2.connectedComponents(dark.astype(np.uint8), connectivity=4)
+    outlines, _ = walked(dark)
+    outer = [cracks for cracks in outlines if area(middles(cracks, dark)) > 0]
+    shift = row_shift(bits_of(dark))
+    around = [{labels[y, x] for x, y, _ in (crack_at(c, shift) for c in own)} for own in outer]
+    assert all(len(own) == 1 for own in around)
+    assert sorted(own.pop() for own in around) == list(range(1, count))
 
 
 @pytest.mark.parametrize("kind", ["noise", "comb", "checks", "spiral"])
@@ -140,10 +175,9 @@ def test_no_crack_is_walked_much_more_than_once(kind: str) -> None:
         "checks": (x + y) % 2 == 0,
         "spiral": (np.hypot(x - 48, y - 32) + 1.3 * np.arctan2(y - 32, x - 48)) % 8 < 4,
     }[kind]
-    mask = mask_of(dark)
-    inner = mask.astype(int)
+    inner = np.pad(dark, 1).astype(int)
     cracks = np.abs(np.diff(inner, axis=0)).sum() + np.abs(np.diff(inner, axis=1)).sum()
-    _, steps = walked(mask)
+    _, steps = walked(dark)
     assert steps <= 1.5 * cracks
 
 
@@ -152,11 +186,16 @@ def test_an_outline_surrounds_its_component_clockwise() -> None:
     dark = np.zeros((20, 30), dtype=bool)
     dark[3:12, 5:9] = dark[8:12, 5:20] = True
     dark[5:7, 6:8] = False  # a hole is not walked around
-    (cracks,), _ = walked(mask_of(dark))
+    (cracks,), _ = walked(dark)
     assert len(cracks) == 2 * (15 + 9)
-    assert area(middles(cracks)) == pytest.approx(9 * 4 + 4 * 11, abs=3)  # the corners are cut
-    short = np.empty((len(cracks) - 1, 3), np.int32)
-    assert walk_on(mask_of(dark), np.array([6, 4], np.int32), short) == 0
+    points = middles(cracks, dark)
+    assert area(points) == pytest.approx(9 * 4 + 4 * 11, abs=3)  # the corners are cut
+    bits, short = bits_of(dark), np.empty(len(cracks) - 1, np.uint64)
+    (start,) = beginnings(bits, dark.shape)[:1]
+    assert walk_on(bits, np.zeros(bits.size, np.uint8), start, short) == 0
+    few = np.empty((8, 2))
+    midway(cracks, row_shift(bits), 6, few)
+    np.testing.assert_array_equal(few, points[::6])
 
 
 def test_an_outline_passes_between_pixels_where_the_level_does() -> None:
@@ -165,9 +204,9 @@ def test_an_outline_passes_between_pixels_where_the_level_does() -> None:
     grey = np.tile(np.rint(np.where(x < 3, 200, ramp)).astype(np.uint8), (24, 1))
     grey[:4] = grey[-4:] = 200
     levels = np.full((6, 6), 120, np.uint8)
-    (cracks,), _ = walked(dark_mask(grey, levels))
+    (cracks,), _ = walked(grey < 120)
     points = np.empty((len(cracks), 2))
-    at_level(cracks, grey, levels, points)
+    at_level(cracks, row_shift(bits_of(grey < 120)), 1, grey, levels, points)
     right = points[(points[:, 0] > 8) & (points[:, 1] > 6) & (points[:, 1] < 17)]
     np.testing.assert_allclose(right[:, 0], 9.3, atol=0.05)
 

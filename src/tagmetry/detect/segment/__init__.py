@@ -1,7 +1,7 @@
 """Dark squares in a grey image, found by kernels that look at each pixel a few times only.
 
-tiles (what is dark here?) -> mask -> starts (where may an outline begin?) -> outline (walked once
-around each) -> corners (four lines) -> look (all of these) -> squares (all looks).
+tiles (what is dark here?) -> dark (a bit each) -> starts (where may an outline begin?) -> outline
+(walked once around each) -> corners (four lines) -> look (all of these) -> squares (all looks).
 """
 
 from tagmetry.detect.segment.squares import (

@@ -83,7 +83,7 @@ def _strays(points: Array, begin: int, end: int) -> tuple[float, int]:
     n = len(points)
     from_x, from_y = points[begin % n]
     along_x, along_y = points[end % n, 0] - from_x, points[end % n, 1] - from_y
-    length = max(np.hypot(along_x, along_y), 1e-9)
+    length = max(np.sqrt(along_x**2 + along_y**2), 1e-9)
     worst, at = -1.0, begin
     for i in range(begin, end):
         j = i if i < n else i - n
@@ -98,7 +98,7 @@ def _way(points: Array, indices: IntArray) -> float:
     n, way = len(points), 0.0
     for k in range(4):
         a, b = points[indices[k] % n], points[indices[(k + 1) % 4] % n]
-        way += np.hypot(b[0] - a[0], b[1] - a[1])
+        way += np.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2)
     return way
 
 
@@ -127,7 +127,7 @@ def _fit_line(points: Array, begin: int, end: int, outset_px: float, line: Array
         from_y + y - outset_px * ux,
     )  # outward: (uy, -ux)
     line[2], line[3] = ux, uy
-    return bool(across2 <= max(_ROUGH_PX, _ROUGH * np.hypot(chord_x, chord_y)) ** 2)
+    return bool(across2 <= max(_ROUGH_PX, _ROUGH * np.sqrt(chord_x**2 + chord_y**2)) ** 2)
 
 
 @njit(cache=True, nogil=True)

@@ -2,21 +2,21 @@
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numba import njit
 
 from tagmetry.detect.segment.corners import far_points, four_corners
-from tagmetry.detect.segment.mask import dark_mask
-from tagmetry.detect.segment.outline import at_level, midway, steps, walk
-from tagmetry.detect.segment.starts import Places, starts
+from tagmetry.detect.segment.dark import Bits, Places, dark_bits, row_shift, thinned
+from tagmetry.detect.segment.outline import Cracks, at_level, crack_at, midway, steps, walk
+from tagmetry.detect.segment.starts import starts
 from tagmetry.detect.segment.tiles import Tiles
 from tagmetry.geometry.arrays import Array, GreyPixels
 
 _DETOUR = 1.5  # an outline's length by the way around its box, which is 1 for convex shapes
 _DETOUR_PX = 16
-_STEPS_PX = 0.4  # how far the steps from pixel to pixel stray from a straight side
-_COARSE_POINTS = 48
+_STEPS_PX = 0.4  # how far steps from pixel to pixel stray from a side; thinned ones may not
+_POINTS = 48  # and up to twice as many, of an outline
+_NO_LEVELS = np.empty((0, 0), np.uint8)
 _FLATTEST = 0.12  # height of a box by its width, or the reverse
 _PIXELS_PER_START = 16  # an image of more starts is taken for noise, and its gate raised
 _COARSER = 1.6
@@ -53,25 +53,24 @@ def dark_squares(grey: GreyPixels, tiles: Tiles, look: Look, least_px: float) ->
     gate = tiles.gate
     while gate <= _MOST_GATE:
         levels = tiles.levels(look.share, gate)
-        mask = dark_mask(grey, levels)
+        bits = dark_bits(grey, levels)
         if look.thinned:
-            mask = np.asarray(cv2.erode(mask, np.ones((3, 3), np.uint8)), dtype=np.uint8)
-        most = max(1000, mask.size // _PIXELS_PER_START)
-        begins = starts(mask, grey, tiles.least_steps(look.step_share), most)
+            bits = thinned(bits)
+        most = max(1000, grey.size // _PIXELS_PER_START)
+        begins = starts(bits, grey, tiles.near.ranges, look.step_share, most)
         if len(begins) < most:
-            crossings = np.empty((0, 0), np.uint8) if look.thinned else levels
+            crossings = _NO_LEVELS if look.thinned else levels
             outset_px = 1.0 if look.thinned else 0.0
             farthest_px = min(2 * look.most_px, grey.shape[0] + grey.shape[1])
-            return _outlined(
-                mask, grey, crossings, begins, outset_px, least_px, _detour_px(farthest_px)
-            )
+            longest_px = _detour_px(farthest_px)
+            return _outlined(bits, grey, crossings, begins, outset_px, least_px, longest_px)
         gate *= _COARSER
     return np.empty((0, 4, 2))
 
 
 @njit(cache=True, nogil=True)
 def _outlined(
-    mask: GreyPixels,
+    bits: Bits,
     grey: GreyPixels,
     levels: GreyPixels,
     begins: Places,
@@ -82,24 +81,25 @@ def _outlined(
     """Walk from all starts, and keep what has four sides."""
     corners = np.empty((len(begins), 4, 2))
     count = 0
-    walked = np.empty((longest_px, 3), np.int32)
-    pixels, width = mask.reshape(-1), mask.shape[1]
-    table = steps(width)
+    walked = np.empty(longest_px, np.uint64)
+    flat, marks = bits.reshape(-1), np.zeros(bits.size, np.uint8)
+    table, shift = steps(8 * bits.shape[1]), row_shift(bits)
     for start in begins:
-        cracks = walked[: walk(pixels, width, table, start, walked)]
-        if len(cracks) >= 3 * least_px and _may_be_a_square(cracks, least_px):
-            square = _four_sided(cracks, grey, levels, outset_px, corners[count])
+        cracks = walked[: walk(flat, marks, table, start, walked)]
+        if len(cracks) >= 3 * least_px and _may_be_a_square(cracks, shift, least_px):
+            square = _four_sided(cracks, shift, grey, levels, outset_px, corners[count])
             count += square and _least_side(corners[count]) >= least_px
     return corners[:count]
 
 
 @njit(cache=True, nogil=True)
-def _may_be_a_square(cracks: Places, least_px: float) -> bool:
+def _may_be_a_square(cracks: Cracks, shift: int, least_px: float) -> bool:
     """Say whether an outline is large and wide enough, and goes around without much detour."""
-    left, top = right, bottom = cracks[0, 0], cracks[0, 1]
-    for i in range(len(cracks)):
-        left, right = min(left, cracks[i, 0]), max(right, cracks[i, 0])
-        bottom = max(bottom, cracks[i, 1])
+    left, top, _ = crack_at(cracks[0], shift)
+    right, bottom = left, top
+    for crack in cracks:
+        x, y, _ = crack_at(crack, shift)
+        left, right, bottom = min(left, x), max(right, x), max(bottom, y)
     width, height = right - left + 1, bottom - top + 1
     longer, shorter = max(width, height), min(width, height)
     wide = longer >= least_px and shorter >= max(_FLATTEST * longer, 0.5 * least_px)
@@ -108,21 +108,23 @@ def _may_be_a_square(cracks: Places, least_px: float) -> bool:
 
 @njit(cache=True, nogil=True)
 def _four_sided(
-    cracks: Places, grey: GreyPixels, levels: GreyPixels, outset_px: float, corners: Array
+    cracks: Cracks,
+    shift: int,
+    grey: GreyPixels,
+    levels: GreyPixels,
+    outset_px: float,
+    corners: Array,
 ) -> bool:
-    """Write an outline's corners; say whether it has four sides. Most are told by few points."""
+    """Write an outline's corners, told by some dozens of points; say whether it has four sides."""
     indices = np.empty(5, np.int64)
-    every = max(1, len(cracks) // _COARSE_POINTS)
-    coarse = np.empty((len(cracks) // every, 2))
-    midway(cracks, every, coarse)
-    if not far_points(coarse, _STEPS_PX, indices):
+    every = max(1, len(cracks) // _POINTS)
+    points = np.empty((len(cracks) // every, 2))
+    midway(cracks, shift, every, points)
+    if not far_points(points, _STEPS_PX if levels.size else 0.0, indices):
         return False
-    points = np.empty((len(cracks), 2))
     if levels.size:
-        at_level(cracks, grey, levels, points)
-    else:
-        midway(cracks, 1, points)
-    return far_points(points, 0.0, indices) and four_corners(points, indices, outset_px, corners)
+        at_level(cracks, shift, every, grey, levels, points)
+    return four_corners(points, indices, outset_px, corners)
 
 
 @njit(cache=True, nogil=True)

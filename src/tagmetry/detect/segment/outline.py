@@ -11,45 +11,47 @@ two pixels: far finer than a pixel.
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
-from tagmetry.detect.segment.mask import RIM_PX
-from tagmetry.detect.segment.starts import Places
+from tagmetry.detect.segment.dark import RIM_PX, Bits
 from tagmetry.detect.segment.tiles import TILE_PX
-from tagmetry.geometry.arrays import Array, GreyPixels, IntArray
+from tagmetry.geometry.arrays import Array, GreyPixels
 
+Cracks = NDArray[np.uint64]  # four times the place of the dark pixel's bit, and which of its sides
+Steps = NDArray[np.uint64]
 # Sides of a pixel, as the walk meets them: above, right, below, left; which way it goes along each,
 # and which way is out of the pixel.
 _AHEAD_X, _AHEAD_Y = np.array([1, 0, -1, 0]), np.array([0, 1, 0, -1])
 _OUT_X, _OUT_Y = np.array([0, 1, 0, -1]), np.array([-1, 0, 1, 0])
-_WALKED = 2  # mark in the mask of a pixel whose upper crack was walked
 _CASES = 4  # of each side: twice whether it is dark ahead, and whether it is so left of that
-_TO, _TO_X, _TO_Y, _SIDE, _AHEAD, _LEFT = range(6)  # columns of the table of steps
+_AHEAD_ONLY = 2  # the case of the upper side after which the walk goes straight on
+_TO, _SIDE, _AHEAD, _LEFT = range(4)  # rows of the table of steps
+_ZERO, _ONE, _TWO, _THREE, _SEVEN = (np.uint64(n) for n in (0, 1, 2, 3, 7))
 
 
 @njit(cache=True, nogil=True)
-def steps(width: int) -> IntArray:
-    """Return the table of steps on a mask of a width, shape (16, 6).
+def steps(width: int) -> Steps:
+    """Return the table of steps on bits of a width, shape (4, 16).
 
-    A row for each side and case: how far it is to the next pixel in the flat mask, in columns and
-    in rows; the row at which the cases of the next side begin; how far it is from here to
-    the pixel ahead then, and to the one left of that.
+    A column for each side and case: how far it is to the next pixel's place; the column at which
+    the cases of the next side begin; how far it is from here to the pixel ahead then, and to the
+    one left of that. Ways back are what comes to the same in unsigned numbers.
     """
-    table = np.zeros((4 * _CASES, 6), np.int64)
+    table = np.zeros((4, 4 * _CASES), np.int64)
     for k in range(4 * _CASES):
         side, dark_ahead, dark_left = k // _CASES, k % _CASES >= 2, k % 2
         turn = (3 if dark_left else 0) if dark_ahead else 1
         to_x = dark_ahead * (_AHEAD_X[side] + dark_left * _OUT_X[side])
         to_y = dark_ahead * (_AHEAD_Y[side] + dark_left * _OUT_Y[side])
         then = (side + turn) % 4
-        table[k, _TO], table[k, _TO_X], table[k, _TO_Y] = to_x + width * to_y, to_x, to_y
-        table[k, _SIDE] = _CASES * then
-        table[k, _AHEAD] = table[k, _TO] + _AHEAD_X[then] + width * _AHEAD_Y[then]
-        table[k, _LEFT] = table[k, _AHEAD] + _OUT_X[then] + width * _OUT_Y[then]
-    return table
+        table[_TO, k], table[_SIDE, k] = to_x + width * to_y, _CASES * then
+        table[_AHEAD, k] = table[_TO, k] + _AHEAD_X[then] + width * _AHEAD_Y[then]
+        table[_LEFT, k] = table[_AHEAD, k] + _OUT_X[then] + width * _OUT_Y[then]
+    return table.view(np.uint64)
 
 
 @njit(cache=True, nogil=True)
-def walk(mask: GreyPixels, width: int, table: IntArray, start: Places, cracks: Places) -> int:
+def walk(bits: Bits, marks: Bits, table: Steps, start: np.uint64, cracks: Cracks) -> int:
     """Walk around a dark area, write its cracks and return how many they are.
 
     The walk is given up, with 0, as soon as it meets what shows that the outline begins elsewhere:
@@ -57,50 +59,69 @@ def walk(mask: GreyPixels, width: int, table: IntArray, start: Places, cracks: P
     than once, whatever the image holds.
 
     Args:
-        mask: Zeros and ones with a rim of zeros, row after row; pixels are marked in it.
-        width: Of a row.
-        table: The `steps` of that width.
-        start: Column and row in the mask of the area's first pixel in reading order.
-        cracks: For the result, column and row in the mask of the dark pixel and which of its sides,
-            shape (the longest way that is worth walking, 3).
+        bits: What is dark, one row after another.
+        marks: Of the same size: a pixel is marked where its upper crack was walked.
+        table: The `steps` of the width of a row.
+        start: Place of the area's first pixel in reading order.
+        cracks: For the result, shape (the longest way that is worth walking,).
     """
-    x, y, side = start[0], start[1], 0
-    first = place = x + width * y
-    ahead, left = place + 1, place + 1 - width
+    place, side = start, _ZERO
+    ahead = place + table[_AHEAD, _AHEAD_ONLY] - table[_TO, _AHEAD_ONLY]
+    left = place + table[_LEFT, _AHEAD_ONLY] - table[_TO, _AHEAD_ONLY]
     for count in range(len(cracks)):
-        mark = 0 if side else _WALKED
-        if place < first or mask[place] & mark:
-            return count if place == first else 0
-        mask[place] |= mark
-        cracks[count, 0], cracks[count, 1], cracks[count, 2] = x, y, side // _CASES
-        k = side | (2 if mask[ahead] else 0) | (1 if mask[left] else 0)
-        ahead, left = place + table[k, _AHEAD], place + table[k, _LEFT]
-        x, y, place = x + table[k, _TO_X], y + table[k, _TO_Y], place + table[k, _TO]
-        side = table[k, _SIDE]
+        mark = np.uint64(side == _ZERO) << (place & _SEVEN)
+        if place < start or marks[place >> _THREE] & mark:
+            return count if place == start else 0
+        marks[place >> _THREE] |= mark
+        cracks[count] = place << _TWO | side >> _TWO
+        k = side | _bit(bits, ahead) << _ONE | _bit(bits, left)
+        ahead, left = place + table[_AHEAD, k], place + table[_LEFT, k]
+        place, side = place + table[_TO, k], table[_SIDE, k]
     return 0
 
 
 @njit(cache=True, nogil=True)
-def midway(cracks: Places, every: int, points: Array) -> None:
-    """Fill `points` with the middles of one in `every` cracks (n, 3), pixels of the image."""
-    for i in range(len(points)):
-        x, y, side = cracks[i * every]
-        points[i, 0] = x - RIM_PX + 0.5 * _OUT_X[side]
-        points[i, 1] = y - RIM_PX + 0.5 * _OUT_Y[side]
+def _bit(bits: Bits, place: np.uint64) -> np.uint64:
+    return np.uint64(bits[place >> _THREE] >> (place & _SEVEN) & _ONE)
 
 
 @njit(cache=True, nogil=True)
-def at_level(cracks: Places, grey: GreyPixels, levels: GreyPixels, points: Array) -> None:
-    """Fill `points` with the places where the image passes the level on its way across each crack.
+def crack_at(crack: np.uint64, shift: int) -> tuple[int, int, int]:
+    """Return a crack's dark pixel, column and row of the image, and which side of that it is.
 
     Args:
-        cracks: As `walk` gives them, shape (n, 3).
-        grey: The image that the mask was made of, shape (h, w).
-        levels: Below which each tile's pixels are dark.
-        points: For the result, pixels of the image, shape (n, 2).
+        crack: As `walk` writes it.
+        shift: By which a place tells its row.
     """
-    for i in range(len(cracks)):
-        x, y, side = cracks[i, 0] - RIM_PX, cracks[i, 1] - RIM_PX, cracks[i, 2]
+    place = int(crack >> _TWO)
+    return (place & ((1 << shift) - 1)) - RIM_PX, (place >> shift) - RIM_PX, int(crack & _THREE)
+
+
+@njit(cache=True, nogil=True)
+def midway(cracks: Cracks, shift: int, every: int, points: Array) -> None:
+    """Fill `points` (m, 2) with the middles of one in `every` cracks, pixels of the image."""
+    for i in range(len(points)):
+        x, y, side = crack_at(cracks[i * every], shift)
+        points[i, 0] = x + 0.5 * _OUT_X[side]
+        points[i, 1] = y + 0.5 * _OUT_Y[side]
+
+
+@njit(cache=True, nogil=True)
+def at_level(
+    cracks: Cracks, shift: int, every: int, grey: GreyPixels, levels: GreyPixels, points: Array
+) -> None:
+    """Fill `points` with the places where the image passes the level on its way across cracks.
+
+    Args:
+        cracks: As `walk` writes them, shape (n,).
+        shift: By which a place tells its row.
+        every: One in so many cracks is asked for.
+        grey: The image, shape (h, w).
+        levels: Below which each tile's pixels are dark.
+        points: For the result, pixels of the image, shape (m, 2).
+    """
+    for i in range(len(points)):
+        x, y, side = crack_at(cracks[i * every], shift)
         out_x, out_y = _OUT_X[side], _OUT_Y[side]
         share = _crossing(grey, levels, x, y, out_x, out_y)
         points[i, 0] = x + share * out_x

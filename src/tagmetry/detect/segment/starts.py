@@ -7,85 +7,70 @@ steps by less.
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-from tagmetry.detect.segment.mask import RIM_PX
+from tagmetry.detect.closest import count_ones
+from tagmetry.detect.segment.dark import RIM_PX, Bits, Places, row_shift
 from tagmetry.detect.segment.tiles import TILE_PX
 from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.markers.packed import Words
 
-Places = NDArray[np.int32]
-_ABOVE_PX = 3  # how far above an outline it is looked for bright pixels
+_REACH_PX = 3  # how far above and left of an outline it is looked for bright pixels
+_ONE, _TWO, _FOUR, _LAST = np.uint64(1), np.uint64(2), np.uint64(4), np.uint64(63)
 
 
 @njit(cache=True, nogil=True)
-def starts(mask: GreyPixels, grey: GreyPixels, least_steps: GreyPixels, most: int) -> Places:
-    """Return where outlines may begin, in reading order: columns and rows of the mask, (n, 2).
+def starts(bits: Bits, grey: GreyPixels, ranges: GreyPixels, share: float, most: int) -> Places:
+    """Return where outlines may begin, in reading order: places among the bits, shape (n,).
 
     Args:
-        mask: Zeros and ones with a rim of zeros, shape (h + 2, a multiple of 8).
+        bits: What is dark.
         grey: The image it was made of, shape (h, w).
-        least_steps: By how much the image must step in each tile, grey values.
+        ranges: Of the grey values around each tile.
+        share: By how much of it the image must step.
         most: How many are worth the time; the rest is left away.
     """
-    height, width = grey.shape
-    found = np.empty((most, 2), np.int32)
+    words, shift = bits.view(np.uint64), row_shift(bits)
+    firsts = np.empty(words.shape[1], np.uint64)
+    found = np.empty(most + 1, np.uint64)
     count = 0
-    least = np.empty(TILE_PX * least_steps.shape[1], np.uint8)
-    clear, first = np.ones(width, np.uint8), np.zeros(mask.shape[1], np.uint8)
-    for y in range(height):
-        if y % TILE_PX == 0:
-            least[:] = np.repeat(least_steps[y // TILE_PX], TILE_PX)
-        if y >= _ABOVE_PX:  # the image's edge may be a marker's
-            below = grey[min(y + 1, height - 1)]
-            _steps_down(grey[y], grey[y - 1], grey[y - 2], grey[y - 3], below, least, clear)
-        _first_pixels(mask[y + RIM_PX], mask[y + RIM_PX - 1], clear, first[RIM_PX:])
-        count = _collect(first, y + RIM_PX, found, count)
+    for row in range(RIM_PX, len(words) - RIM_PX):
+        _write_firsts(words[row], words[row - 1], firsts)
+        for i in range(firsts.size):
+            left = firsts[i]
+            while left and count < most:
+                column = 64 * i + count_ones((left & (~left + _ONE)) - _ONE)
+                left &= left - _ONE
+                found[count] = row << shift | column
+                count += _steps_down(grey, ranges, share, column - RIM_PX, row - RIM_PX)
     return found[:count]
 
 
 @njit(cache=True, nogil=True)
-def _collect(first: GreyPixels, row: int, found: Places, count: int) -> int:
-    """Add the columns of ones to what was found, as far as there is room, and return its number."""
-    eights = first.view(np.uint64)
-    for i in range(eights.size):
-        if eights[i]:
-            for x in range(8 * i, 8 * i + 8):
-                if first[x] and count < len(found):
-                    found[count, 0], found[count, 1] = x, row
-                    count += 1
-    return count
+def _write_firsts(here: Words, above: Words, firsts: Words) -> None:
+    """Write which bits of a row are the first of a run of ones that has none above it.
 
-
-@njit(cache=True, nogil=True)
-def _steps_down(
-    here: GreyPixels,
-    above: GreyPixels,
-    higher: GreyPixels,
-    highest: GreyPixels,
-    below: GreyPixels,
-    least: GreyPixels,
-    clear: GreyPixels,
-) -> None:
-    """Write 1 where pixels above or left of a row's are brighter than those below by `least`.
-
-    Loops of few arrays and no negative offsets: the compiler turns these into vectors.
+    Those above are told within eight bits; a run with one farther on is given up when it is walked.
     """
-    for x in range(clear.size):
-        clear[x] = max(above[x], higher[x], highest[x])
-    for x in range(clear.size - 3):
-        clear[x + 3] = max(clear[x + 3], here[x], here[x + 1], here[x + 2])
-    for x in range(clear.size - 2):
-        dark = min(below[x], below[x + 1], below[x + 2])
-        clear[x + 1] = max(clear[x + 1], dark) - dark
-    for x in range(clear.size):
-        clear[x] = clear[x] >= least[x]
-    clear[0] = clear[-1] = 1
+    for i in range(firsts.size):
+        run, covered = here[i], here[i] & above[i]
+        covered |= run & covered >> _ONE
+        run &= run >> _ONE
+        covered |= run & covered >> _TWO
+        run &= run >> _TWO
+        covered |= run & covered >> _FOUR
+        firsts[i] = here[i] & ~(here[i] << _ONE | covered)
+    for i in range(firsts.size - 1):
+        firsts[i + 1] &= ~(here[i] >> _LAST)
 
 
 @njit(cache=True, nogil=True)
-def _first_pixels(
-    here: GreyPixels, above: GreyPixels, clear: GreyPixels, first: GreyPixels
-) -> None:
-    """Write 1 at clear pixels of a row of the mask that are dark, but not those left and above."""
-    for x in range(clear.size):
-        first[x] = here[x + RIM_PX] & clear[x] & ~(here[x] | above[x + RIM_PX])
+def _steps_down(grey: GreyPixels, ranges: GreyPixels, share: float, x: int, y: int) -> bool:
+    """Say whether pixels above or left of one are brighter than those below by a share."""
+    height, width = grey.shape
+    if not (_REACH_PX <= x < width - 1 and _REACH_PX <= y < height - 1):
+        return True  # the image's edge may be a marker's
+    above = max(grey[y - 1, x], grey[y - 2, x], grey[y - 3, x])
+    left = max(grey[y, x - 1], grey[y, x - 2], grey[y, x - 3])
+    dark = min(grey[y + 1, x - 1], grey[y + 1, x], grey[y + 1, x + 1])
+    least = int(share * ranges[y // TILE_PX, x // TILE_PX])
+    return int(max(above, left)) - int(dark) >= least

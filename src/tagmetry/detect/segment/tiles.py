@@ -64,11 +64,6 @@ class Tiles:
         own = Extremes(*tile_extremes(grey))
         return cls(own.around(_NEAR_TILES), own.around(_WIDE_TILES), noise_gate(own))
 
-    def least_steps(self, share: float) -> GreyPixels:
-        """Return a share of the range around each tile, grey values."""
-        shares = (share * np.arange(256)).astype(np.uint8)
-        return np.asarray(cv2.LUT(self.near.ranges, shares), dtype=np.uint8)
-
     def levels(self, share: float, gate: float) -> GreyPixels:
         """Return the grey value of each tile below which its pixels are dark; 0 in plain tiles.
 
@@ -78,7 +73,7 @@ class Tiles:
         """
         near = _levels(self.near, share, gate)
         wide = _levels(self.wide, share, _WIDE_GATE * gate)
-        return np.where(near == 0, wide, near)
+        return np.asarray(cv2.copyTo(near, near, wide), dtype=np.uint8)  # where it is not plain
 
 
 def _levels(extremes: Extremes, share: float, gate: float) -> GreyPixels:

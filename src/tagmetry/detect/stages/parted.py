@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from tagmetry.detect.segment.dark import RIM_PX, columns_and_rows, dark_bits
 from tagmetry.detect.segment.look import Look
-from tagmetry.detect.segment.mask import RIM_PX, dark_mask
-from tagmetry.detect.segment.starts import Places, starts
+from tagmetry.detect.segment.starts import starts
 from tagmetry.detect.segment.tiles import TILE_PX, Tiles
 from tagmetry.geometry.arrays import Array, BoolArray, GreyPixels, IntArray
 
@@ -54,11 +54,12 @@ def parted(grey: GreyPixels, min_side_px: float) -> Parted:
     tiles = Tiles.of(seen)
     gate, level = tiles.gate, tiles.levels(_SHARE, tiles.gate)
     height, width = seen.shape
-    rimmed = dark_mask(seen, level)
-    first = starts(rimmed, seen, tiles.least_steps(Look().step_share), rimmed.size)
+    bits = dark_bits(seen, level)
+    first = starts(bits, seen, tiles.near.ranges, Look().step_share, seen.size)
+    rimmed = np.unpackbits(bits, axis=1, bitorder="little")
     mask = rimmed[RIM_PX : RIM_PX + height, RIM_PX : RIM_PX + width]
     boxes, outlines = _areas(mask)
-    begins = _begin_at(outlines, first - RIM_PX)
+    begins = _begin_at(outlines, columns_and_rows(first, bits))
     likely = begins & _are_likely(boxes, outlines, scale * min_side_px)
     per_pixel = np.kron(level, np.ones((TILE_PX, TILE_PX), np.uint8))[:height, :width]
     return Parted(scale, seen, gate, per_pixel, mask > 0, boxes, outlines, begins, likely)
@@ -89,7 +90,7 @@ def _outline(labels: IntArray, label: int, box: list[int]) -> Array:
     return np.asarray(longest + np.array([left, top]), dtype=np.float64)
 
 
-def _begin_at(outlines: tuple[Array, ...], first: Places) -> BoolArray:
+def _begin_at(outlines: tuple[Array, ...], first: IntArray) -> BoolArray:
     """Say of each outline whether its first pixel in reading order is among those given, (n,)."""
     known = set(map(tuple, first.tolist()))
     rows = [line[np.lexsort(line.T)[0]] for line in outlines]
