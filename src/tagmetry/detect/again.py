@@ -12,15 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tagmetry.detect.neighbours import crowded, unread
 from tagmetry.detect.sample import side_lengths
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import BoolArray
 
-_NEAR = 0.75, 1.6  # from centre to centre by the marker's side; closer is within it
 _UNREAD = 2  # as many other pictures for each marker are far more
-_OF_A_SIZE = 0.2, 2.5  # a neighbour's side by the marker's
-_TOUCHING_FROM = 0.6  # of a marker's side, from centre to centre
-_TOUCHING = 0.15  # of a marker's side, from corner to corner
 _OF_BOARDS = 0.25  # so many of the markers have neighbours where there are boards
 _PATTERN = 1000  # squares without a picture in any are a pattern: other looks show more of it
 _AROUND = 2.0  # sides around them that are looked at again
@@ -86,15 +82,15 @@ def again(
     everywhere = Box(0, 0, shape[1], shape[0])
     if looked_at.holds(everywhere) or (not len(pictures_px) and len(squares_px) > _PATTERN):
         return None
-    unread = (_apart_by_side(markers_px, pictures_px) > _NEAR[0]).all(axis=0).sum()
-    if unread >= _UNREAD * len(markers_px) or (side_lengths(markers_px) < _SMALL * least_px).any():
+    is_small = side_lengths(markers_px) < _SMALL * least_px
+    if unread(markers_px, pictures_px) >= _UNREAD * len(markers_px) or is_small.any():
         return everywhere
-    crowded = _beside(markers_px, pictures_px) | _touched(markers_px, squares_px)
-    if crowded.sum() < _OF_BOARDS * len(markers_px) or not crowded.any():
+    is_crowded = crowded(markers_px, pictures_px, squares_px)
+    if is_crowded.sum() < _OF_BOARDS * len(markers_px) or not is_crowded.any():
         return None
-    if looked_at.holds(_around(markers_px[crowded], _ENOUGH_AROUND, shape)):
+    if looked_at.holds(_around(markers_px[is_crowded], _ENOUGH_AROUND, shape)):
         return None
-    return _around(markers_px[crowded], _AROUND, shape)
+    return _around(markers_px[is_crowded], _AROUND, shape)
 
 
 def _around(squares_px: Array, sides: float, shape: tuple[int, int]) -> Box:
@@ -105,37 +101,3 @@ def _around(squares_px: Array, sides: float, shape: tuple[int, int]) -> Box:
     left, top = np.maximum(low, 0).astype(int).tolist()
     right, bottom = np.minimum(high + 1, [shape[1], shape[0]]).astype(int).tolist()
     return Box(left, top, right, bottom, _SHORTEST * float(side_lengths(squares_px).min()))
-
-
-def _beside(markers_px: Array, pictures_px: Array) -> BoolArray:
-    """Say which markers have a picture of about their size beside them, shape (m,)."""
-    apart = _apart_by_side(markers_px, pictures_px)
-    ratio = _ratio(markers_px, pictures_px)
-    near = (apart > _NEAR[0]) & (apart < _NEAR[1])
-    return np.asarray((near & (ratio > _OF_A_SIZE[0]) & (ratio < _OF_A_SIZE[1])).any(axis=1))
-
-
-def _touched(markers_px: Array, squares_px: Array) -> BoolArray:
-    """Say which markers touch another square's corner with one of theirs, shape (m,)."""
-    outside = _apart_by_side(markers_px, squares_px) > _TOUCHING_FROM
-    outside &= _ratio(markers_px, squares_px) > _OF_A_SIZE[0]
-    marker, square = np.nonzero(outside & (_apart_by_side(markers_px, squares_px) < _NEAR[1]))
-    between = markers_px[marker][:, :, None] - squares_px[square][:, None]
-    apart_px = np.linalg.norm(between, axis=3).min(axis=(1, 2))
-    touched = np.zeros(len(markers_px), dtype=bool)
-    touched[marker[apart_px < _TOUCHING * side_lengths(markers_px).mean(axis=1)[marker]]] = True
-    return touched
-
-
-def _apart_by_side(markers_px: Array, others_px: Array) -> Array:
-    """Return distances from centre to centre by the marker's side, shape (m, n)."""
-    apart = others_px.mean(axis=1) - markers_px.mean(axis=1)[:, None]
-    return np.asarray(
-        np.linalg.norm(apart, axis=2) / side_lengths(markers_px).mean(axis=1)[:, None]
-    )
-
-
-def _ratio(markers_px: Array, others_px: Array) -> Array:
-    """Return sides of squares by those of markers, shape (m, n)."""
-    sides_px = side_lengths(markers_px).mean(axis=1)[:, None]
-    return np.asarray(side_lengths(others_px).mean(axis=1) / sides_px)

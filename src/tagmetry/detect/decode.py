@@ -12,16 +12,14 @@ from functools import cache
 
 import numpy as np
 
-from tagmetry.detect.sample import cell_means, side_lengths, steps_across
+from tagmetry.detect.reading import BORDER_ERRORS, Spots, read_each
+from tagmetry.detect.sample import cell_means
 from tagmetry.geometry import Array, square_to_quad
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 from tagmetry.markers import Layout
 from tagmetry.markers.packed import Words, packed
 
-_LEAST_CONTRAST = 8.0  # grey values between black and white
-_BORDER_ERRORS = 0.2  # share of border cells that may read white
 _OUTSIDE_CELLS = 0.35  # how far outside the border white is looked for
-_EDGE_CELLS = 0.3  # how far inside and outside a side the image must differ
 _LEAST_WHITE = 0.1  # share of the bits; pictures have some white in them
 _LEAST_OUTLINE = 0.3  # share of the contrast by which it must
 _SHARPEN = 0.25  # share of the difference to each neighbour that is added
@@ -80,7 +78,7 @@ class Readings:
     @property
     def bordered(self) -> IntArray:
         """Which of them have a border, so that their bits were read, shape (k,)."""
-        return np.asarray(np.flatnonzero(self.measures[:, 0] >= 1 - _BORDER_ERRORS))
+        return np.asarray(np.flatnonzero(self.measures[:, 0] >= 1 - BORDER_ERRORS))
 
     @property
     def outlined(self) -> BoolArray:
@@ -91,7 +89,7 @@ class Readings:
     def pictured(self) -> BoolArray:
         """Which of them have a border with something printed inside: a blot is black all over."""
         pictured = (self.margins > 0).mean(axis=1) >= _LEAST_WHITE
-        return np.asarray(pictured & (self.measures[:, 0] >= 1 - _BORDER_ERRORS))
+        return np.asarray(pictured & (self.measures[:, 0] >= 1 - BORDER_ERRORS))
 
 
 def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> Readings:
@@ -105,40 +103,13 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> Readings:
     Returns:
         One reading each.
     """
-    H = square_to_quad(corners_px)
-    reach = _TAP_CELLS / layout.side_cells
-    black_at, white_at = _places(layout)
-    black, white = (cell_means(grey, H, at, reach) for at in (black_at, white_at))
-    to_dark, to_bright = _planes(layout)
-    dark, bright = black @ to_dark, white @ to_bright
-    contrast = (bright - dark).mean(axis=1)
-    half = np.where(np.abs(contrast) < _LEAST_CONTRAST, np.nan, contrast / 2)
-    middle, count = (dark + bright) / 2, len(_frame(layout))
-    frame = np.concatenate([black, white], axis=1)[:, :count]
-    border = (frame - middle[:, :count]) / half[:, None]
-    as_printed = border * np.where(np.arange(count) < len(black_at), -1.0, 1.0)
-    share = (as_printed > 0).mean(axis=1)
-    clear = np.clip(as_printed, -1, 1).mean(axis=1)
-    bits, near, far = np.zeros((len(H), layout.bit_count)), np.zeros(len(H)), np.zeros(len(H))
-    bordered = np.flatnonzero(share >= 1 - _BORDER_ERRORS)  # no more is read of the others
-    values = cell_means(grey, H[bordered], layout.bit_centres, reach)
-    inside = (values - middle[bordered, count:]) / half[bordered, None]
-    bits[bordered] = np.concatenate([border[bordered], inside], axis=1) @ _sharpening(layout).T
-    near[bordered], far[bordered] = _outlines(grey, corners_px[bordered], half[bordered], layout)
-    measures = np.stack([share, 2 * half, clear, near, far], axis=1)
-    return Readings(bits, packed(bits > 0), measures)
-
-
-def _outlines(
-    grey: GreyPixels, corners_px: Array, half: Array, layout: Layout
-) -> tuple[Array, Array]:
-    """Return how clearly the image steps across sides, within a pixel and within a cell, (n,)."""
-    cell_px = side_lengths(corners_px).mean(axis=1) / layout.side_cells
-    reaches_px = (np.ones(len(corners_px)), _EDGE_CELLS * cell_px)
-    step_up = (-2 if layout.white_border else 2) * half[:, None]
-    steps = [steps_across(grey, corners_px, reach_px) for reach_px in reaches_px]
-    near, far = (np.clip(step / step_up, 0, 1).mean(axis=1) for step in steps)
-    return near, far
+    corners_px = np.ascontiguousarray(corners_px)
+    margins, measures = (
+        np.zeros((len(corners_px), layout.bit_count)),
+        np.zeros((len(corners_px), 5)),
+    )
+    read_each(grey, corners_px, square_to_quad(corners_px), _spots(layout), margins, measures)
+    return Readings(margins, packed(margins > 0), measures)
 
 
 def free_colours(grey: GreyPixels, corners_px: Array, layout: Layout) -> BoolArray:
@@ -152,12 +123,30 @@ def free_colours(grey: GreyPixels, corners_px: Array, layout: Layout) -> BoolArr
 
 def has_border(reading: Reading) -> bool:
     """Say whether enough of the frame's cells read as they are printed."""
-    return reading.border_share >= 1 - _BORDER_ERRORS
+    return reading.border_share >= 1 - BORDER_ERRORS
 
 
 def has_outline(reading: Reading) -> bool:
     """Say whether the image steps across the sides; it does not inside a wide border."""
     return max(reading.outline, reading.sharp_outline) >= _LEAST_OUTLINE
+
+
+@cache
+def _spots(layout: Layout) -> Spots:
+    """Return what the kernel looks at."""
+    (black, white), (to_dark, to_bright) = _places(layout), _planes(layout)
+    return Spots(
+        _TAP_CELLS / layout.side_cells,
+        np.ascontiguousarray(black),
+        np.ascontiguousarray(white),
+        np.ascontiguousarray(layout.bit_centres, dtype=np.float64),
+        np.ascontiguousarray(to_dark.T),
+        np.ascontiguousarray(to_bright.T),
+        _sharpening(layout),
+        len(_frame(layout)),
+        float(layout.side_cells),
+        -1.0 if layout.white_border else 1.0,
+    )
 
 
 @cache

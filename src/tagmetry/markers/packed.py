@@ -10,5 +10,7 @@ Words = NDArray[np.uint64]
 
 def packed(bits: BoolArray) -> Words:
     """Return rows of bits (n, bits) as words, shape (n, ceil(bits / 64)); missing bits are 0."""
-    padded = np.pad(bits, [(0, 0), (0, -bits.shape[1] % 64)])
-    return np.packbits(padded, axis=1).view(np.uint64)
+    octets = np.packbits(bits, axis=1)
+    padded = np.zeros((len(bits), -(-bits.shape[1] // 64) * 8), np.uint8)
+    padded[:, : octets.shape[1]] = octets
+    return padded.view(np.uint64)
