@@ -65,10 +65,14 @@ def performance(
 def steerable(scenario: Scenario) -> tuple[Scenario, Mapping[int, Steered]]:
     """Return a scenario whose robots a person can send somewhere, and their controllers by id."""
     rules = ShieldRules(delay_s=scenario.delay_s)
-    steered = {
-        one.robot.id: Steered(one.controller() if one.controller is not None else None, rules)
-        for one in scenario.robots
-    }
+    steered: dict[int, Steered] = {}
+
+    def is_sent(robot: int) -> bool:
+        return robot in steered and steered[robot].errand is not None
+
+    for one in scenario.robots:
+        own = one.controller() if one.controller is not None else None
+        steered[one.robot.id] = Steered(own, rules, is_sent)
     robots = tuple(_driven(one, steered[one.robot.id]) for one in scenario.robots)
     return replace(scenario, robots=robots), steered
 

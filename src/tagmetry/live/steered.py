@@ -1,10 +1,14 @@
 """A robot's own controller, until a person sends the robot on an errand.
 
+A controller that expects nobody in its way, a leader's on its course, is shielded from robots that
+are on errands, and from no others: a follower keeps nearer to its leader than the shield would let
+it.
+
 Time in which a controller is not asked, because its robot is stopped or sent away, does not pass
 for it: a leader whose course is timed goes on where it was, and does not run after its timetable.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
 from tagmetry.arena.controllers import (
@@ -31,10 +35,21 @@ class Steered:
         errand: What to do instead; None while the robot's own controller drives.
     """
 
-    def __init__(self, controller: Controller | None, rules: ShieldRules) -> None:
-        """Take the robot's own controller, if it has one, and how it keeps away from others."""
+    def __init__(
+        self,
+        controller: Controller | None,
+        rules: ShieldRules,
+        is_sent: Callable[[int], bool] = lambda _robot: False,
+    ) -> None:
+        """Take over a robot.
+
+        Args:
+            controller: Its own, if it has one.
+            rules: How it keeps away from others.
+            is_sent: Whether a robot, by its id, is on an errand.
+        """
         self.errand: Errand | None = None
-        self._controller, self._rules = controller, rules
+        self._controller, self._rules, self._is_sent = controller, rules, is_sent
         self._asked_s: float | None = None
         self._paused_s = 0.0
 
@@ -43,7 +58,10 @@ class Steered:
         errand = self.errand
         if errand is not None:
             return shielded(errand(view), view, self._rules)
-        return self._controller(self._without_pauses(view)) if self._controller else STILL
+        if self._controller is None:
+            return STILL
+        wish = self._controller(self._without_pauses(view))
+        return shielded(wish, self._of_the_sent(view), self._rules)
 
     @property
     def fence(self) -> Fence | None:
@@ -64,6 +82,11 @@ class Steered:
         """
         if self._controller is not None:
             self._controller = tuned(self._controller, name, value)
+
+    def _of_the_sent(self, view: View) -> View:
+        """Return the view without those that its controller expects where they are."""
+        sent = tuple(one for one in view.neighbours if self._is_sent(one.id))
+        return replace(view, neighbours=sent, obstacles=())
 
     def _without_pauses(self, view: View) -> View:
         """Return the view at the controller's own time."""
