@@ -24,6 +24,7 @@ class Remembering:
     """A runner that does nothing."""
 
     recordings: Path = Path("nowhere")
+    recording: str | None = None
     viewers: int = 0
     asked: list[tuple[int, Asked]] = field(default_factory=list)
     left: list[int] = field(default_factory=list)
@@ -93,7 +94,7 @@ class Served:
 def served(address: str = "127.0.0.1", port: int = 0) -> Iterator[Served]:
     """Give a server that runs in a thread."""
     hub, runner = Hub(), Remembering()
-    with listening("127.0.0.1", port) as opened, opened_rooms(hub.give) as rooms:
+    with listening("127.0.0.1", port) as opened, opened_rooms(hub.give, runner) as rooms:
         port = opened.getsockname()[1]
         access = Access(address, port)
         own = server(access, hub, runner, [without_deeds(room, runner) for room in rooms])

@@ -191,16 +191,54 @@ def test_a_page_that_is_hidden_while_it_drives_stops_the_robots(
     browser.wait("document.body.dataset.stopped === 'true'", 5)
 
 
-def test_records_from_the_page(browser: Chromium, page: LivePage) -> None:
+def test_records_from_the_page_and_shows_it_again(browser: Chromium, page: LivePage) -> None:
     sign_in(browser, page.token)
-    button = "document.getElementById('record')"
+    release(browser)
+    browser.run("location.hash = '#recordings'; true")
+    button = "document.getElementById('recordings-record')"
     says = f"{button}.textContent"
     browser.run(f"{button}.click(); true")
     browser.wait(f"{says} === 'End recording'")
     browser.wait("document.getElementById('news').textContent.includes('.mcap')")
+    time.sleep(3)
     browser.run(f"{button}.click(); true")
     browser.wait(f"{says} === 'Record'")
-    browser.wait("document.querySelectorAll('#recorded a').length >= 1")
+    see = "document.querySelector('#recordings-list button:not(:disabled)')"
+    browser.wait(f"{see} !== null")
+    browser.run(f"{see}.click(); true")
+    browser.wait("!document.getElementById('replay').hidden")
+    told = "document.getElementById('replay-told').textContent"
+    browser.wait(f"{told}.includes('12 robots')")
+    first = browser.run(told)
+    browser.wait(f"{told} !== {json.dumps(first)}")  # it plays
+    if PICTURES:
+        photograph_room(browser)
+    time_line = "document.getElementById('replay-time')"
+    browser.wait(f"document.getElementById('replay-play').textContent === 'Play' && {told}")
+    last = browser.run(told)
+    browser.run(f"{time_line}.value = 0; {time_line}.dispatchEvent(new Event('input')); true")
+    browser.wait(f"parseFloat({told}) < parseFloat({json.dumps(last)})")
+    browser.run("document.getElementById('replay-leave').click(); true")
+    browser.wait("document.getElementById('replay').hidden")
+
+
+def photograph_room(browser: Chromium) -> None:
+    time.sleep(1)
+    browser.photograph(Path(PICTURES or ".") / "recordings.png")
+
+
+def test_a_recording_is_deleted_when_asked_twice(browser: Chromium, page: LivePage) -> None:
+    sign_in(browser, page.token)
+    browser.run("location.hash = '#recordings'; true")
+    count = "document.querySelectorAll('#recordings-list li').length"
+    browser.wait(f"{count} >= 1")
+    before = browser.run(count)
+    remove = "document.querySelector('#recordings-list li button:last-child')"
+    browser.run(f"{remove}.click(); true")
+    browser.wait(f"{remove}.textContent === 'Really delete?'")
+    assert browser.run(count) == before
+    browser.run(f"{remove}.click(); true")
+    browser.wait(f"{count} === {before - 1}")
 
 
 def test_names_are_text(browser: Chromium) -> None:

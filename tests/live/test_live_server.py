@@ -305,7 +305,8 @@ def shelf(live: Served, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path
 def test_an_operator_lists_and_fetches_recordings(live: Served, shelf: Path) -> None:
     cookie = live.session()
     status, _, body = live.ask("GET", "/recordings", Cookie=cookie)
-    assert (status, json.loads(body)) == (200, [{"name": "2026-01-01.mcap", "size_bytes": 3}])
+    assert status == 200
+    assert json.loads(body) == [{"name": "2026-01-01.mcap", "size_bytes": 3, "is_growing": False}]
     status, headers, body = live.ask("GET", "/recordings/2026-01-01.mcap", Cookie=cookie)
     assert (status, body) == (200, b"one")
     assert headers["content-disposition"].startswith("attachment")

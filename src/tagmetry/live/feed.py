@@ -8,7 +8,7 @@ import numpy as np
 
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.live.eye import Look
-from tagmetry.live.messages import Health, Picture, Told
+from tagmetry.live.messages import Health, Picture, Told, World
 from tagmetry.live.rates import Rate
 from tagmetry.live.recording import Recordings
 from tagmetry.live.stage import Performance
@@ -55,7 +55,7 @@ class Feed:
         step_s = max(_WORLD_S, self.viewers / _WORLD_SENDS_PER_S)
         if time.monotonic() - self._world_s >= step_s:
             self._world_s = time.monotonic()
-            self._give(told_world(moment, show.arena.scenario, show.steered, why))
+            self._tell(told_world(moment, show.arena.scenario, show.steered, why))
 
     def stage(self, show: Performance) -> None:
         """Tell what robots are among."""
@@ -72,7 +72,11 @@ class Feed:
         height_px, width_px = small.shape[:2]
         scale = width_px / show.arena.scenario.view.camera.width_px
         markers = told_markers(look.detections, show.roster, scale)
-        self._give(Picture(look.time_s, look.taken_s, width_px, height_px, markers, _jpeg(small)))
+        self._tell(Picture(look.time_s, look.taken_s, width_px, height_px, markers, _jpeg(small)))
+
+    def _tell(self, message: World | Picture) -> None:
+        self._recordings.told(message)
+        self._give(message)
 
     def health(self, show: Performance, late_s: float) -> None:
         """Tell how the measurement does, unless that was told just now."""

@@ -79,7 +79,7 @@ def opened_page(
                 pictures=pictures,
                 eye=eye,
             ) as runner,
-            opened_rooms(hub.give) as rooms,
+            opened_rooms(hub.give, runner) as rooms,
         ):
             host = f"[{address}]" if ":" in address else address
             url = f"http://{host}:{port}/"

@@ -7,7 +7,11 @@ from pathlib import Path
 from tagmetry.arena import WorldState
 from tagmetry.camera import Image
 from tagmetry.errors import InputError
+from tagmetry.live.messages import Picture, World
+from tagmetry.live.wire import format_message
 from tagmetry.record.mcap import Recorder
+
+WORLD, PICTURE = "/live/World", "/live/Picture"  # topics of what pages were told
 
 
 class Recordings:
@@ -62,6 +66,12 @@ class Recordings:
         recorder = self._recorder
         if recorder is not None:
             recorder.image(image)
+
+    def told(self, message: World | Picture) -> None:
+        """Record what pages are told, as it is told, if a file is open."""
+        recorder, topic = self._recorder, f"/live/{type(message).__name__}"
+        if recorder is not None:
+            recorder.line(topic, message.time_s, lambda: format_message(message).encode())
 
     def _end(self, recorder: Recorder) -> None:
         try:

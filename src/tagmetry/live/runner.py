@@ -122,6 +122,11 @@ class LiveRunner:
         return self._recordings.folder
 
     @property
+    def recording(self) -> str | None:
+        """Name of the file that is being written; None while none is."""
+        return self._recordings.name
+
+    @property
     def time_s(self) -> float:
         """Now, in the arena's clock."""
         return self._show.arena.time_s

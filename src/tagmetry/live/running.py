@@ -23,6 +23,10 @@ class Runner(Protocol):
     def recordings(self) -> Path:
         """Folder of what was recorded; may not be there yet."""
 
+    @property
+    def recording(self) -> str | None:
+        """Name of the file that is being written; None while none is."""
+
     def ask(self, page: int, asked: Asked) -> None:
         """Take what an operator's page asks for.
 

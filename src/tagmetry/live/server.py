@@ -20,7 +20,6 @@ from tagmetry.live.page import PARTS, Part
 from tagmetry.live.pages import Pages
 from tagmetry.live.rooms.room import Room
 from tagmetry.live.running import Runner
-from tagmetry.live.shelf import Shelf
 
 _MOST_BODY_BYTES = 512
 _PATIENCE_S = 5.0  # for a whole body
@@ -30,6 +29,10 @@ ROUTES: dict[str, tuple[str, Role | None]] = {  # path: method and role; None: a
     "/sign-in": ("POST", None),
     "/recordings": ("GET", "operator"),
     "/recordings/{name}": ("GET", "operator"),
+    "/recordings/{name}/delete": ("POST", "operator"),
+    "/recordings/{name}/length": ("GET", "operator"),
+    "/recordings/{name}/world": ("GET", "operator"),
+    "/recordings/{name}/picture": ("GET", "operator"),
     "/print/choices": ("GET", "viewer"),
     "/print/preview": ("GET", "viewer"),
     "/print/sheet.pdf": ("GET", "viewer"),
@@ -60,8 +63,6 @@ def create_app(access: Access, hub: Hub, runner: Runner, rooms: Sequence[Room] =
     app.add_middleware(Guard, access=access)
     for path, part in PARTS.items():
         app.add_api_route(path, _shown(part), methods=["GET"])
-    for path, answer in Shelf(access, runner).routes.items():
-        app.add_api_route(path, answer, methods=["GET"], response_model=None)
     for room in rooms:
         _add(app, access, room)
     app.add_api_route("/sign-in", _sign_in(access), methods=["POST"])

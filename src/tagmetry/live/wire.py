@@ -23,8 +23,12 @@ def packed(message: Told) -> str | bytes:
     """Return a message as it is sent: JSON, and a picture behind it where there is one."""
     if not isinstance(message, Picture):
         return format_message(message)
-    head = format_message(message).encode()
-    return len(head).to_bytes(_LENGTH_BYTES, "little") + head + message.jpeg
+    return joined_picture(format_message(message).encode(), message.jpeg)
+
+
+def joined_picture(head: bytes, jpeg: bytes) -> bytes:
+    """Return a binary message of a picture's JSON and its file."""
+    return len(head).to_bytes(_LENGTH_BYTES, "little") + head + jpeg
 
 
 def split_picture(content: bytes) -> tuple[str, bytes]:

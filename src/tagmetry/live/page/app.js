@@ -6,6 +6,7 @@ import { Notice } from "./notice.js";
 import { Rooms } from "./rooms.js";
 import { ArenaRoom } from "./rooms/arena.js";
 import { PrintRoom } from "./rooms/print.js";
+import { RecordingsRoom } from "./rooms/recordings.js";
 import { watchStop } from "./stop.js";
 
 const notice = new Notice(), news = new News();
@@ -19,7 +20,7 @@ const page = {
   notice: (text) => notice.show(text),
   get commands() { return door.commands; },
 };
-const rooms = new Rooms([new ArenaRoom(page), new PrintRoom()]);
+const rooms = new Rooms([new ArenaRoom(page), new RecordingsRoom(page), new PrintRoom()]);
 let beating = null;
 
 async function take(message) {

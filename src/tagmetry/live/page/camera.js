@@ -21,7 +21,7 @@ export class CameraView {
     this.canvas.width = picture.width_px;
     this.canvas.height = picture.height_px;
     const pen = this.canvas.getContext("2d");
-    pen.drawImage(image, 0, 0);
+    pen.drawImage(image, 0, 0, picture.width_px, picture.height_px);
     pen.translate(0.5, 0.5); // an integer pixel is a pixel's centre
     for (const one of picture.markers) this.drawMarker(pen, one);
   }

@@ -6,6 +6,7 @@ from tagmetry.record.mcap.pieces import Entry
 from tagmetry.record.mcap.reading import DamagedRecordingWarning, read_entries
 from tagmetry.record.mcap.recorder import Recorder
 from tagmetry.record.mcap.replay import Replay
+from tagmetry.record.mcap.timeline import Timeline
 from tagmetry.record.mcap.topics import DETECTIONS, IMAGES, PACKETS, STATES
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "PacketRecord",
     "Recorder",
     "Replay",
+    "Timeline",
     "export_recording",
     "read_entries",
 ]

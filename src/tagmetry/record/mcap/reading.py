@@ -17,9 +17,10 @@ from tagmetry.record.mcap.pieces import MAGIC, Entry, require_mcap
 
 OnDamage = Callable[[str], None]
 LARGEST_PIECE_BYTES = 256 * 2**20
-_SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _DATA_END = 0x03, 0x04, 0x05, 0x06, 0x0F
-_RECORD = struct.Struct("<BQ")
-_CHUNK_HEAD = struct.Struct("<QQQII")
+CHUNK, DATA_END = 0x06, 0x0F
+_CHANNEL, _MESSAGE = 0x04, 0x05
+RECORD = struct.Struct("<BQ")
+PIECE_HEAD = struct.Struct("<QQQII")
 _MESSAGE_HEAD = struct.Struct("<HIQQ")
 
 
@@ -52,7 +53,7 @@ def read_entries(
             if file.read(len(MAGIC)) != MAGIC:
                 raise InputError(f"{path}: expected an MCAP file, found something else")
             for piece in _pieces(file, str(path), on_damage):
-                for entry in _entries(piece):
+                for entry in entries_of(piece):
                     if not topics or entry.topic in topics:
                         yield entry
     except OSError as error:
@@ -61,11 +62,11 @@ def read_entries(
 
 def _pieces(file: BinaryIO, path: str, on_damage: OnDamage) -> Iterator[bytes]:
     """Give the content of every whole piece."""
-    for kind, body in _records(file):
-        if kind == _DATA_END:
+    for kind, body in records_of(file):
+        if kind == DATA_END:
             return
-        if kind == _CHUNK:
-            content = _unpacked(body)
+        if kind == CHUNK:
+            content = unpacked(body)
             if content is None:
                 on_damage(f"{path}: passed over a piece that is damaged")
             else:
@@ -75,26 +76,26 @@ def _pieces(file: BinaryIO, path: str, on_damage: OnDamage) -> Iterator[bytes]:
     )
 
 
-def _records(file: BinaryIO) -> Iterator[tuple[int, bytes]]:
+def records_of(file: BinaryIO) -> Iterator[tuple[int, bytes]]:
     """Give kind and body of every record that is all there."""
-    while len(head := file.read(_RECORD.size)) == _RECORD.size:
-        kind, size_bytes = _RECORD.unpack(head)
+    while len(head := file.read(RECORD.size)) == RECORD.size:
+        kind, size_bytes = RECORD.unpack(head)
         body = file.read(size_bytes) if size_bytes <= LARGEST_PIECE_BYTES else b""
         if len(body) < size_bytes:
             return
         yield kind, body
 
 
-def _unpacked(chunk: bytes) -> bytes | None:
+def unpacked(chunk: bytes) -> bytes | None:
     """Return the records of a piece; None where it is damaged, or packed in a way we never do."""
-    if len(chunk) < _CHUNK_HEAD.size:
+    if len(chunk) < PIECE_HEAD.size:
         return None
-    _, _, size_bytes, crc, name_bytes = _CHUNK_HEAD.unpack_from(chunk)
-    name_end = _CHUNK_HEAD.size + name_bytes
+    _, _, size_bytes, crc, name_bytes = PIECE_HEAD.unpack_from(chunk)
+    name_end = PIECE_HEAD.size + name_bytes
     packed = chunk[name_end + 8 :]
     if size_bytes > LARGEST_PIECE_BYTES:
         return None
-    content = _decompressed(chunk[_CHUNK_HEAD.size : name_end], packed, size_bytes)
+    content = _decompressed(chunk[PIECE_HEAD.size : name_end], packed, size_bytes)
     is_whole = content is not None and len(content) == size_bytes
     return content if is_whole and zlib.crc32(content or b"") == crc else None
 
@@ -113,10 +114,10 @@ def _decompressed(compression: bytes, packed: bytes, size_bytes: int) -> bytes |
         return None
 
 
-def _entries(piece: bytes) -> Iterator[Entry]:
+def entries_of(piece: bytes) -> Iterator[Entry]:
     """Give the messages of a piece."""
     topics: dict[int, str] = {}
-    for kind, body in _records(io.BytesIO(piece)):
+    for kind, body in records_of(io.BytesIO(piece)):
         if kind == _CHANNEL and len(body) >= 8:
             number, _, name_bytes = struct.unpack_from("<HHI", body)
             topics[number] = body[8 : 8 + name_bytes].decode("utf-8", "replace")

@@ -129,6 +129,10 @@ class Recorder:
         """Record anything else, by name, on a topic of its own such as `/latency`."""
         self._take(topic, time_s, lambda: json_text(note))
 
+    def line(self, topic: str, time_s: float, text: Callable[[], bytes]) -> None:
+        """Record JSON that is made in the recorder's thread, on a topic of its own."""
+        self._take(topic, time_s, text)
+
     def _take(self, topic: str, time_s: float, text: Callable[[], bytes]) -> None:
         """Remember what is to be written; its text is made in the recorder's thread."""
         logged_ns, stamped_ns = time.time_ns(), _nanoseconds(time_s)

@@ -18,7 +18,6 @@ export class ArenaRoom {
 
   listen() {
     const { page } = this;
-    $("shelf").addEventListener("toggle", () => this.showRecordings());
     $("release").addEventListener("click", () => page.send("Release"));
     $("resume").addEventListener("click", () => page.send("Resume", { robot_id: this.selected }));
     $("record").addEventListener("click", () =>
@@ -38,7 +37,6 @@ export class ArenaRoom {
   welcome(message) {
     this.map.half = message.floor_m;
     this.startAnew();
-    $("shelf").hidden = !this.page.commands;
     $("scenario").replaceChildren(...message.scenarios.map((name) => new Option(name, name)));
   }
 
@@ -76,18 +74,9 @@ export class ArenaRoom {
   }
 
   showRecording(recording) {
-    if (this.recording !== recording) this.showRecordings();
     this.recording = recording;
     $("record").textContent = recording ? "End recording" : "Record";
     $("record").setAttribute("aria-pressed", String(Boolean(recording)));
-  }
-
-  async showRecordings() {
-    if (!this.page.commands) return;
-    const answer = await fetch("/recordings");
-    const found = answer.ok ? await answer.json() : [];
-    $("shelf-hint").hidden = found.length > 0;
-    $("recorded").replaceChildren(...found.map(recordedLine));
   }
 
   point(x, y, robot) {
@@ -120,13 +109,4 @@ function told(one, commands) {
   const where = `${one.x_m.toFixed(3)}, ${one.y_m.toFixed(3)} m`;
   return `${one.name} at ${where}, ${one.neighbours.length} neighbours${wheels}. ` +
     (commands ? "Click on the map where it shall go." : "");
-}
-
-function recordedLine(one) {
-  const line = document.createElement("li"), link = document.createElement("a");
-  link.href = `/recordings/${encodeURIComponent(one.name)}`;
-  link.download = one.name;
-  link.textContent = `${one.name}, ${(one.size_bytes / 1e6).toFixed(1)} MB`;
-  line.append(link);
-  return line;
 }

@@ -1,0 +1,151 @@
+"""The room of recordings: what was told is told again, and only what the list names is touched."""
+
+import json
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from live_server import Served, eventually, served
+
+from tagmetry.camera import Image
+from tagmetry.live.messages import LiveMarker, Picture, World
+from tagmetry.live.recording import Recordings
+from tagmetry.live.wire import split_picture
+
+NAME = "one.mcap"
+MARKER = LiveMarker(3, ((1.0, 2.0), (3.0, 4.0), (5.0, 6.0), (7.0, 8.0)), (9.0, 10.0))
+
+
+@pytest.fixture(scope="module")
+def live() -> Iterator[Served]:
+    with served() as own:
+        yield own
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a recording of one second: worlds, and every other time a picture."""
+    folder = tmp_path_factory.mktemp("recorded")
+    recordings = Recordings(folder)
+    recordings.start()
+    name = recordings.name
+    for number in range(20):
+        recordings.told(World(float(number), (), (f"<b>{number}</b>",), number > 10, "x"))
+        if number % 2:
+            pixels = np.full((48, 64), 10 * number, np.uint8)
+            recordings.image(Image(pixels, float(number), "capture", source="twin"))
+            recordings.told(Picture(float(number), 0.0, 64, 48, (MARKER,), b""))
+        time.sleep(0.05)
+    recordings.close()
+    assert recordings.failure == ""
+    return folder / str(name)
+
+
+@pytest.fixture
+def folder(live: Served, recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (tmp_path / NAME).write_bytes(recorded.read_bytes())
+    monkeypatch.setattr(live.runner, "recordings", tmp_path)
+    return tmp_path
+
+
+def asked(live: Served, what: str, name: str = NAME) -> tuple[int, bytes]:
+    status, _, body = live.ask("GET", f"/recordings/{name}/{what}", Cookie=live.session())
+    return status, body
+
+
+def test_tells_again_what_was_told(live: Served, folder: Path) -> None:
+    status, body = asked(live, "length")
+    length_s = json.loads(body)["length_s"]
+    assert status == 200
+    assert 0.9 < length_s < 5.0
+    told = [
+        json.loads(asked(live, f"world?at={at_s}")[1]) for at_s in (0.0, length_s / 2, length_s)
+    ]
+    assert [one["type"] for one in told] == ["World"] * 3
+    assert (told[0]["time_s"], told[-1]["time_s"]) == (0.0, 19.0)
+    assert 5 < told[1]["time_s"] < 15
+    assert told[-1]["missing"] == ["<b>19</b>"]
+    assert told[-1]["is_stopped"]
+
+
+def test_shows_again_what_was_seen(live: Served, folder: Path) -> None:
+    import cv2
+
+    status, body = asked(live, "picture?at=1000")
+    text, jpeg = split_picture(body)
+    told = json.loads(text)
+    pixels = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_GRAYSCALE)
+    assert status == 200
+    assert (told["type"], told["time_s"], told["width_px"]) == ("Picture", 19.0, 64)
+    assert told["markers"][0]["robot_id"] == 3
+    assert pixels.shape == (48, 64)
+    assert abs(float(pixels.mean()) - 190) < 3
+    assert asked(live, "picture?at=0")[0] == 204  # no picture yet
+
+
+@pytest.mark.parametrize("at", ["x", "nan", "inf", "1e999", 400 * "1", ""])
+def test_refuses_what_is_no_moment(live: Served, folder: Path, at: str) -> None:
+    status, body = asked(live, f"world?at={at}")
+    assert status == (200 if at == 400 * "1" else 422)
+    assert status == 200 or b"in seconds since the recording began" in body
+
+
+@pytest.mark.parametrize("what", ["length", "world", "picture"])
+def test_refuses_what_is_no_recording(live: Served, folder: Path, what: str) -> None:
+    (folder / "broken.mcap").write_bytes(b"nothing")
+    assert asked(live, what, "broken.mcap") == (
+        422, f"{folder / 'broken.mcap'}: expected an MCAP file, found something else".encode(),
+    )  # fmt: skip
+    assert asked(live, what, "other.mcap")[0] == 404
+
+
+def test_what_is_being_written_is_neither_replayed_nor_deleted(
+    live: Served, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live.runner, "recording", NAME)
+    status, body = asked(live, "length")
+    assert (status, b"being written" in body) == (422, True)
+    cookie = live.session()
+    assert live.ask("POST", f"/recordings/{NAME}/delete", b"", Cookie=cookie)[0] == 409
+    (listed,) = json.loads(live.ask("GET", "/recordings", Cookie=cookie)[2])
+    assert listed["is_growing"]
+    assert (folder / NAME).exists()
+
+
+def test_deletes_what_the_list_names_and_nothing_else(live: Served, folder: Path) -> None:
+    cookie = live.session()
+    (folder.parent / "secret.mcap").write_bytes(b"")
+    (folder / "note.txt").write_bytes(b"")
+    (folder / "link.mcap").symlink_to(folder.parent / "secret.mcap")
+    for name in ("..%2fsecret.mcap", "../secret.mcap", "note.txt", "link.mcap", "%00", "x.mcap"):
+        assert live.ask("POST", f"/recordings/{name}/delete", b"", Cookie=cookie)[0] in (400, 404)
+    assert live.ask("POST", f"/recordings/{NAME}/delete", b"", Cookie=cookie)[0] == 204
+    assert live.ask("POST", f"/recordings/{NAME}/delete", b"", Cookie=cookie)[0] == 404
+    assert {one.name for one in folder.iterdir()} == {"note.txt", "link.mcap"}
+    assert (folder.parent / "secret.mcap").exists()
+
+
+def test_a_page_of_another_site_deletes_nothing(live: Served, folder: Path) -> None:
+    cookie = live.session()
+    where = f"/recordings/{NAME}/delete"
+    assert live.ask("POST", where, b"", Cookie=cookie, Origin="http://evil.example")[0] == 403
+    assert live.ask("POST", where, b"", Cookie=cookie, Origin=None)[0] == 403
+    assert (folder / NAME).exists()
+
+
+def test_many_moments_at_once_are_answered_or_put_off(live: Served, folder: Path) -> None:
+    from concurrent.futures import ThreadPoolExecutor
+
+    cookie = live.session()
+
+    def ask(number: int) -> int:
+        at_s = f"{0.02 * number:.2f}"
+        return live.ask("GET", f"/recordings/{NAME}/world?at={at_s}", Cookie=cookie)[0]
+
+    with ThreadPoolExecutor(40) as pool:
+        answers = list(pool.map(ask, range(60)))
+    assert set(answers) <= {200, 503}
+    assert answers.count(200) >= 16
+    eventually(lambda: ask(1) == 200)
