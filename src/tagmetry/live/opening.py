@@ -1,6 +1,8 @@
 """The live page as a whole: the arena's thread, the door and the server, ready to run."""
 
 import socket
+import threading
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -14,6 +16,8 @@ from tagmetry.live.rooms.every import opened_rooms
 from tagmetry.live.runner import LiveRunner
 from tagmetry.live.seeing import EyeKind
 from tagmetry.live.serving import listening, server
+
+_STARTING_S = 0.01  # between two looks
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +41,19 @@ class LivePage:
     def serve(self) -> None:
         """Serve until the server is told to end, or by Ctrl-C."""
         self.server.run(sockets=[self.socket])
+
+    @contextmanager
+    def served_beside(self) -> Iterator[None]:
+        """Serve in a thread of its own until the block ends."""
+        thread = threading.Thread(target=self.serve, name="live server")
+        thread.start()
+        while thread.is_alive() and not self.server.started:
+            time.sleep(_STARTING_S)
+        try:
+            yield
+        finally:
+            self.server.should_exit = True
+            thread.join()
 
 
 @contextmanager
