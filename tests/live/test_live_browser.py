@@ -241,6 +241,17 @@ def test_a_recording_is_deleted_when_asked_twice(browser: Chromium, page: LivePa
     browser.wait(f"{count} === {before - 1}")
 
 
+def test_tells_how_it_does(browser: Chromium) -> None:
+    browser.run("location.hash = '#health'; true")
+    for figure in ("images", "turn", "told", "battery", "disk"):
+        browser.wait(f"parseFloat(document.getElementById('health-{figure}').textContent) > 0")
+    browser.wait("document.getElementById('health-advice').textContent.length > 5")
+    browser.wait("document.getElementById('health-stages').textContent.includes('tell pages')")
+    if PICTURES:
+        time.sleep(10)
+        browser.photograph(Path(PICTURES) / "health.png")
+
+
 def test_names_are_text(browser: Chromium) -> None:
     name = "<img src=x onerror=\"document.body.dataset.broken='yes'\">"
     robot = LiveRobot(

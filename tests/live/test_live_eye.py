@@ -69,7 +69,7 @@ def test_paints_looks_that_came_after_it_was_ready_and_none_twice() -> None:
 
 def test_there_is_no_picture_where_corners_were_measured() -> None:
     with pytest.raises(InputError, match="measures corners alone"):
-        measured(Look(0.0, 0.0, HERE, ()))
+        measured(Look(0.0, 0.0, 0.0, HERE, ()))
 
 
 def test_corners_are_measured_as_often_as_the_scenario_says() -> None:

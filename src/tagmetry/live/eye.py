@@ -18,6 +18,7 @@ class Look:
     Attributes:
         time_s: The middle of the exposure, in the arena's clock.
         taken_s: The same in the clock of this computer, `time.monotonic`.
+        took_s: How long it took to measure.
         Ts_world_robot: Where the robots were.
         detections: What was measured.
         pixels: The picture that was measured; None where only corners were.
@@ -25,6 +26,7 @@ class Look:
 
     time_s: float
     taken_s: float
+    took_s: float
     Ts_world_robot: RigidTransform
     detections: tuple[Detection, ...]
     pixels: AnyPixels | None = None
@@ -53,7 +55,9 @@ class WatchedEye:
         """Return the markers that an image of this moment shows."""
         taken_s = time.monotonic()
         detections = self._eye.look(time_s, Ts_world_robot)
-        look = Look(time_s, taken_s, Ts_world_robot, detections, self._pixels())
+        look = Look(
+            time_s, taken_s, time.monotonic() - taken_s, Ts_world_robot, detections, self._pixels()
+        )
         with self._looked:
             self._newest = look
             self._looked.notify_all()

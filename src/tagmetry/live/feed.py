@@ -8,12 +8,12 @@ import numpy as np
 
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.live.eye import Look
-from tagmetry.live.messages import Health, Picture, Told, World
-from tagmetry.live.rates import Rate
+from tagmetry.live.messages import Picture, Told, World
 from tagmetry.live.recording import Recordings
 from tagmetry.live.stage import Performance
 from tagmetry.live.told import told_markers, told_world
 from tagmetry.live.told_stage import told_stage
+from tagmetry.live.vitals import Vitals
 from tagmetry.pipeline.arena_twin import Moment
 
 _WORLD_S, _HEALTH_S = 1 / 20, 0.5
@@ -25,8 +25,7 @@ class Feed:
     """Gives messages to whoever tells the pages.
 
     Attributes:
-        notice: What went wrong last; empty while all is well.
-        viewers: How many pages there are; many are told less often.
+        vitals: How the measurement does.
     """
 
     def __init__(self, give: Callable[[Told], None], recordings: Recordings) -> None:
@@ -34,13 +33,11 @@ class Feed:
 
         Args:
             give: Takes every message, in the thread that made it, and returns at once.
-            recordings: What health tells about.
+            recordings: Take what is told, while one is written.
         """
-        self.notice, self.viewers = "", 0
+        self.vitals = Vitals(recordings)
         self._give, self._recordings = give, recordings
-        self._images, self._pictures = Rate(), Rate()
-        self._world_s = self._health_s = float("-inf")
-        self._picture_s: float | None = None  # when the newest was made
+        self._world_s = self._picture_s = self._health_s = float("-inf")
 
     def moment(self, moment: Moment, show: Performance, why: str | None, took_s: float) -> None:
         """Tell where the robots are, unless that was told just now.
@@ -51,11 +48,14 @@ class Feed:
             why: Why the stop for all is pressed; None while it is not.
             took_s: Time that it took.
         """
-        self._images.count(took_s)
-        step_s = max(_WORLD_S, self.viewers / _WORLD_SENDS_PER_S)
-        if time.monotonic() - self._world_s >= step_s:
-            self._world_s = time.monotonic()
-            self._tell(told_world(moment, show.arena.scenario, show.steered, why))
+        self.vitals.image(took_s)
+        began_s = time.monotonic()
+        if began_s - self._world_s >= max(_WORLD_S, self.vitals.viewers / _WORLD_SENDS_PER_S):
+            self._world_s = began_s
+            world = told_world(moment, show.arena.scenario, show.steered, why)
+            self.vitals.world(world)
+            self._tell(world)
+            self.vitals.stage("to tell pages", time.monotonic() - began_s)
 
     def stage(self, show: Performance) -> None:
         """Tell what robots are among."""
@@ -63,40 +63,29 @@ class Feed:
 
     def picture(self, look: Look, pixels: AnyPixels, show: Performance) -> None:
         """Tell what the camera sees, unless many pages were told just now."""
-        now_s, step_s = time.monotonic(), self.viewers / _PICTURE_SENDS_PER_S
-        if self._picture_s is not None and now_s - self._picture_s < step_s:
+        began_s = time.monotonic()
+        if began_s - self._picture_s < self.vitals.viewers / _PICTURE_SENDS_PER_S:
             return
-        self._picture_s = now_s
-        self._pictures.count()
+        self._picture_s = began_s
         small = _halved(pixels) if pixels.shape[1] > _MOST_WIDTH_PX else pixels
         height_px, width_px = small.shape[:2]
         scale = width_px / show.arena.scenario.view.camera.width_px
         markers = told_markers(look.detections, show.roster, scale)
         self._tell(Picture(look.time_s, look.taken_s, width_px, height_px, markers, _jpeg(small)))
-
-    def _tell(self, message: World | Picture) -> None:
-        self._recordings.told(message)
-        self._give(message)
+        self.vitals.picture(look)
+        self.vitals.stage("to look", look.took_s)
+        self.vitals.stage("from an image to its picture", time.monotonic() - look.taken_s)
 
     def health(self, show: Performance, late_s: float) -> None:
         """Tell how the measurement does, unless that was told just now."""
         now_s = time.monotonic()
-        if now_s - self._health_s < _HEALTH_S:
-            return
-        self._health_s = now_s
-        self._give(
-            Health(
-                show.name,
-                self._images.per_s,
-                late_s,
-                self._images.mean_s,
-                self._pictures.per_s,
-                None if self._picture_s is None else now_s - self._picture_s,
-                self.viewers,
-                self._recordings.name,
-                self.notice or self._recordings.failure,
-            )
-        )
+        if now_s - self._health_s >= _HEALTH_S:
+            self._health_s = now_s
+            self._give(self.vitals.health(show, late_s))
+
+    def _tell(self, message: World | Picture) -> None:
+        self._recordings.told(message)
+        self._give(message)
 
 
 def _halved(pixels: AnyPixels) -> AnyPixels:

@@ -178,6 +178,19 @@ class Picture:
 
 
 @dataclass(frozen=True)
+class StageTime:
+    """How long one step of an image's way takes.
+
+    Attributes:
+        name: As people call it.
+        mean_s: The mean of the last second.
+    """
+
+    name: str
+    mean_s: float
+
+
+@dataclass(frozen=True)
 class Health:
     """How the measurement does.
 
@@ -191,6 +204,13 @@ class Health:
         viewers: Pages that are connected.
         recording: Name of the file that is being written; None while nothing is.
         notice: What went wrong last; empty while all is well.
+        stages: The steps of an image's way.
+        worst_loss: Share of packets that do not arrive, of the robot that loses most.
+        least_battery_v: Of the robot that has least; None before one told.
+        memory_bytes: That the server holds; None where the system does not say.
+        disk_free_bytes: Where recordings go; None where that is not known.
+        dropped_count: What the recording could not write in time.
+        advice: What is wrong and what to do, a line each; none while all is well.
     """
 
     scenario: str
@@ -202,6 +222,13 @@ class Health:
     viewers: int
     recording: str | None
     notice: str
+    stages: tuple[StageTime, ...]
+    worst_loss: float
+    least_battery_v: float | None
+    memory_bytes: int | None
+    disk_free_bytes: int | None
+    dropped_count: int
+    advice: tuple[str, ...]
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,12 @@ class Recordings:
         self._recorder: Recorder | None = None
         self._closing: threading.Thread | None = None
 
+    @property
+    def dropped_count(self) -> int:
+        """How many messages of the open file could not be written in time."""
+        recorder = self._recorder
+        return 0 if recorder is None else recorder.dropped_count
+
     def start(self) -> None:
         """Begin a file that is named after the clock; nothing changes while one is written.
 

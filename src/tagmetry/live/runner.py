@@ -105,11 +105,11 @@ class LiveRunner:
     @property
     def viewers(self) -> int:
         """How many pages are connected, as the server says."""
-        return self._feed.viewers
+        return self._feed.vitals.viewers
 
     @viewers.setter
     def viewers(self, count: int) -> None:
-        self._feed.viewers = count
+        self._feed.vitals.viewers = count
 
     @property
     def scenarios(self) -> tuple[str, ...]:
@@ -172,14 +172,14 @@ class LiveRunner:
             try:
                 self._do(order)
             except (InputError, OSError) as error:
-                self._feed.notice = str(error)
+                self._feed.vitals.notice = str(error)
         if self._watch.is_gone():
             self._stop(_GONE)
 
     def _do(self, order: Order) -> None:
         if isinstance(order.asked, DRIVING):
             self._watch.drive(order.page)
-        self._feed.notice = ""
+        self._feed.vitals.notice = ""
         match order.asked:
             case Stop(why):
                 self._stop(why)

@@ -131,6 +131,14 @@ export interface Picture {
   jpeg: Blob;
 }
 
+/** How long one step of an image's way takes. */
+export interface StageTime {
+  /** As people call it. */
+  name: string;
+  /** The mean of the last second. */
+  mean_s: number;
+}
+
 /** How the measurement does. */
 export interface Health {
   type: "Health";
@@ -152,6 +160,20 @@ export interface Health {
   recording: string | null;
   /** What went wrong last; empty while all is well. */
   notice: string;
+  /** The steps of an image's way. */
+  stages: StageTime[];
+  /** Share of packets that do not arrive, of the robot that loses most. */
+  worst_loss: number;
+  /** Of the robot that has least; None before one told. */
+  least_battery_v: number | null;
+  /** That the server holds; None where the system does not say. */
+  memory_bytes: number | null;
+  /** Where recordings go; None where that is not known. */
+  disk_free_bytes: number | null;
+  /** What the recording could not write in time. */
+  dropped_count: number;
+  /** What is wrong and what to do, a line each; none while all is well. */
+  advice: string[];
 }
 
 /** How messages reach the pages. */
