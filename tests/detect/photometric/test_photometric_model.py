@@ -6,12 +6,13 @@ from evaluated_model import evaluated
 from scipy.ndimage import gaussian_filter
 from scipy.special import ndtr
 
-from tagmetry.camera import Camera, FisheyeLens
+from tagmetry.camera import BrownLens, Camera, FisheyeLens, Lens
 from tagmetry.detect.photometric.bound import Print, corner_bound_px
 from tagmetry.detect.photometric.bows import believed
 from tagmetry.detect.photometric.elementary import exponential, logarithm, step_and_bell
 from tagmetry.detect.photometric.ink import QUIET_CELLS, printed
 from tagmetry.detect.photometric.model import BLACK, BLUR, BOWS, COUNT
+from tagmetry.detect.photometric.rays import rays_of
 from tagmetry.detect.photometric.straight import lenses_around, straight_place
 from tagmetry.geometry import apply_homography, square_to_quad
 from tagmetry.markers import family
@@ -162,3 +163,26 @@ def test_bows_are_believed_where_the_image_bows() -> None:
     kept, honest = believed(corners, covariance, half_px, strong)
     assert np.abs(kept - corners).max() < 0.5 * np.abs(corners).max()
     assert np.trace(honest[0]) > 0.9 * np.trace(covariance[0, :8, :8])
+
+
+@pytest.mark.parametrize(
+    "lens", [BrownLens((-0.3, 0.1, 0.001, 0.0005, -0.01)), FisheyeLens((0.05, -0.01, 0.0, 0.0))]
+)
+def test_lenses_from_the_table_are_those_of_the_formula(lens: Lens) -> None:
+    """The first image of a camera uses the lens's own formula, later ones the table."""
+    camera = Camera(1280, 960, (500.0, 500.0), (640.0, 480.0), lens)
+    rng = np.random.default_rng(5)
+    frames = np.column_stack([rng.uniform(0, 1, (30, 2)) * camera.size_px, np.full(30, 40.0)])
+    exact, by_table = lenses_around(camera, frames), lenses_around(camera, frames)
+    for place in rng.uniform(-1, 1, (10, 2)):
+        for one, other in zip(exact, by_table, strict=True):
+            off = np.subtract(straight_place(*place, one), straight_place(*place, other))
+            assert np.abs(off).max() * 40 < 5e-4
+
+
+def test_what_the_lens_does_not_show_is_not_in_the_table() -> None:
+    """Of a fisheye whose circle ends within the image, rays outside stay unknown."""
+    camera = Camera(640, 640, (120.0, 120.0), (320.0, 320.0), FisheyeLens((0.0, 0.0, 0.0, 0.0)))
+    pixels = np.array([[320.0, 320.0], [1e6, 3.0], [np.nan, 4.0], [630.0, 635.0]])
+    first, again = rays_of(camera, pixels), rays_of(camera, pixels)
+    np.testing.assert_allclose(first, again, atol=1e-7)

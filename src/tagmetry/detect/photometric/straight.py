@@ -11,6 +11,7 @@ import numpy as np
 from tagmetry.camera import Camera
 from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
+from tagmetry.detect.photometric.rays import rays_of
 from tagmetry.geometry import Array
 
 _DEGREE = 5
@@ -43,17 +44,31 @@ def lenses_around(camera: Camera | None, frames: Array) -> Array:
     if camera is None or not camera.lens.coefficients:
         return np.zeros((len(frames), 0, 2))
     around = frames[:, None, :2] + frames[:, None, 2:] * _PLACES
-    rays, ahead = camera.unproject(around), camera.unproject(frames[:, :2])
+    pixels = np.concatenate([frames[:, None, :2], around], axis=1)
+    rays = rays_of(camera, pixels.reshape(-1, 2)).reshape(len(frames), -1, 3)
+    ahead, rays = rays[:, 0], rays[:, 1:]
     seen = np.isfinite(rays).all(axis=(1, 2)) & np.isfinite(ahead).all(axis=1)
     depth = np.einsum("nkc,nc->nk", rays, ahead)
     seen &= depth.min(axis=1) > _LEAST_DEPTH
     lenses = np.zeros((len(frames), TERMS, 2))
     lenses[:, [_X, _Y]] = np.eye(2)
     if seen.any():
-        across = np.linalg.svd(ahead[seen][:, None])[2][:, 1:]
-        flat = (rays[seen] @ np.swapaxes(across, 1, 2)) / depth[seen][..., None]
+        flat = (rays[seen] @ _across(ahead[seen])) / depth[seen][..., None]
         lenses[seen] = _scaled_like_image(_SOLVER @ flat)
     return lenses
+
+
+def _across(ahead: Array) -> Array:
+    """Return two unit vectors across each of n rays, at right angles, shape (n, 3, 2).
+
+    They are what the axes x and y become when z is mirrored onto the ray (Householder).
+    """
+    mirror = ahead.copy()
+    mirror[:, 2] += np.copysign(1.0, ahead[:, 2])
+    twice = 2.0 / (mirror**2).sum(axis=1)
+    return np.asarray(
+        np.eye(3)[:, :2] - twice[:, None, None] * mirror[:, :, None] * mirror[:, None, :2]
+    )
 
 
 def _scaled_like_image(coefficients: Array) -> Array:
