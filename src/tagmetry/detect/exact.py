@@ -1,14 +1,39 @@
 """The best that can be said of corners: whole pictures where they fit, else the sides alone."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
 from tagmetry.camera import Camera
-from tagmetry.detect.photometric import Picture, fit_pictures
+from tagmetry.detect.photometric import LOOK_COUNT, Picture, fit_pictures
 from tagmetry.detect.refine import Corners, refine
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.geometry.arrays import BoolArray, GreyPixels
+
+
+@dataclass(frozen=True)
+class Exact(Corners):
+    """Corners of n markers, and how the markers look.
+
+    Attributes:
+        looks: Numbers of the photometric fit, NaN where the sides alone told, shape (n, 10); a fit
+            to the next image may begin with them.
+    """
+
+    looks: Array
+
+    @classmethod
+    def nothing(cls) -> Self:
+        """Return no corners."""
+        none = np.zeros((0, 4, 2)), np.zeros((0, 8, 8)), np.zeros(0, dtype=bool)
+        return cls(*none, np.zeros((0, LOOK_COUNT)))
+
+    def at(self, which: BoolArray) -> Self:
+        """Return some of them."""
+        covariances_px2, refined = self.covariances_px2[which], self.refined[which]
+        return type(self)(self.corners_px[which], covariances_px2, refined, self.looks[which])
 
 
 def exact_corners(
@@ -16,7 +41,8 @@ def exact_corners(
     corners_px: Array,
     pictures: Sequence[Picture],
     camera: Camera | None = None,
-) -> Corners:
+    looks: Array | None = None,
+) -> Exact:
     """Refine corners to about the least error that the noise allows.
 
     Args:
@@ -24,10 +50,11 @@ def exact_corners(
         corners_px: First guesses, good to about a pixel, clockwise, shape (n, 4, 2).
         pictures: What is printed in each, n of them.
         camera: Intrinsics, so that edges are followed along their curves.
+        looks: How each looked in the image before, see `fit_pictures`.
     """
-    fitted = fit_pictures(grey, corners_px, pictures, camera)
+    fitted = fit_pictures(grey, corners_px, pictures, camera, looks=looks)
     if fitted.sound.all():
-        return Corners(fitted.corners_px, fitted.covariances_px2, fitted.sound)
+        return Exact(fitted.corners_px, fitted.covariances_px2, fitted.sound, fitted.looks)
     rest = ~fitted.sound
     cells = np.array([picture.side_cells for picture in pictures])
     sides = refine(grey, corners_px[rest], cells[rest], camera)
@@ -35,4 +62,4 @@ def exact_corners(
     refined = fitted.sound.copy()
     corners[rest], covariances[rest] = sides.corners_px, sides.covariances_px2
     refined[rest] = sides.refined
-    return Corners(corners, covariances, refined)
+    return Exact(corners, covariances, refined, fitted.looks)

@@ -31,6 +31,7 @@ def fit_pixels(
     count: int,
     settled_px: float,
     noise: float,
+    every: int = 1,
 ) -> tuple[float, float, Array, Array]:
     """Improve the first `count` numbers of a fit until a round moves the picture little.
 
@@ -42,6 +43,7 @@ def fit_pixels(
         count: How many numbers to fit: 10, place and levels; 18, all but bows; 23.
         settled_px: What little is.
         noise: First guess, grey values.
+        every: One block of so many is looked at.
 
     Returns:
         The noise; how far the picture moved in the last round (px), infinite where there is no
@@ -50,8 +52,8 @@ def fit_pixels(
     L, scale = np.zeros((count, count)), np.ones(count)
     moved_px = np.inf
     for _ in range(_MOST_ROUNDS):
-        sums, sizes = _summed(view, fit, pixel_count, edges, noise, count)
-        noise = max(np.median(sizes[:: 1 + pixel_count // _JUDGED]) / 0.6745, LEAST_NOISE)
+        sums, sizes = _summed(view, fit, pixel_count, edges, noise, count, every)
+        noise = max(np.median(sizes[:: 1 + len(sizes) // _JUDGED]) / 0.6745, LEAST_NOISE)
         N, g = sums[1 : count + 1, 1 : count + 1], sums[1 : count + 1, 0].copy()
         if count > SLOPES:
             _add_priors(N, g, fit, noise)
@@ -68,19 +70,21 @@ def fit_pixels(
 
 @step
 def _summed(
-    view: View, fit: Array, pixel_count: int, edges: int, noise: float, count: int
+    view: View, fit: Array, pixel_count: int, edges: int, noise: float, count: int, every: int
 ) -> tuple[Array, Array]:
     """Return the sums of products, and the sizes of residuals."""
     room = view.room
     sums, sizes = np.zeros((row.MOST_NUMBERS, row.MOST_NUMBERS)), np.empty(pixel_count)
     narrow = fit.astype(np.float32)
-    for first in range(0, pixel_count, row.BLOCK):
+    size_count = 0
+    for first in range(0, pixel_count, every * row.BLOCK):
         _read(room, view.pixels, first, edges)
         evaluate(room, narrow, edges, noise, count)
         add_products(room, sums, count)
         for p in range(min(row.BLOCK, pixel_count - first)):
-            sizes[first + p] = room[row.SIZE + p]
-    return sums, sizes
+            sizes[size_count + p] = room[row.SIZE + p]
+        size_count += min(row.BLOCK, pixel_count - first)
+    return sums, sizes[:size_count]
 
 
 @step
@@ -126,18 +130,24 @@ def _limited(fit: Array, half_px: float) -> None:
 
 
 @step
-def _shorten(fit: Array, step: Array, half_px: float) -> float:
-    """Keep a step where the model may be taken as linear; return how far it moves the picture."""
+def picture_moved_px(fit: Array, step: Array, half_px: float) -> float:
+    """Return how far a step moves the picture, px."""
     across = abs(step[0]) + abs(step[1]) + abs(step[2])
     down = abs(step[3]) + abs(step[4]) + abs(step[5])
-    moved_px = cell_px(fit, half_px) * max(across, down)
+    return float(cell_px(fit, half_px) * max(across, down))
+
+
+@step
+def _shorten(fit: Array, step: Array, half_px: float) -> float:
+    """Keep a step where the model may be taken as linear; return how far it moves the picture."""
+    moved_px = picture_moved_px(fit, step, half_px)
     step[:8] /= max(1.0, moved_px / _MOST_MOVE_PX)
     if len(step) > BLUR:
         step[EXPONENT] = min(max(step[EXPONENT], -0.4), 0.4)
         most = 0.5 * (fit[BLUR] + fit[BLUR + 2])
         largest = max(abs(step[BLUR]), abs(step[BLUR + 1]), abs(step[BLUR + 2]))
         step[BLUR : BLUR + 3] /= max(1.0, 2 * largest / most)
-    return float(moved_px)
+    return moved_px
 
 
 @step

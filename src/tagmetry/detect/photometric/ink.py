@@ -33,10 +33,3 @@ def changes(ink: Array) -> Array:
             all_changes[1, 0, j, i] = here - above
             all_changes[1, 1, j, i] = here - left - above + before
     return all_changes
-
-
-@kernel
-def first_edge(u: float, edges: int, cells: int) -> int:
-    """Return the first of the edges nearest to u, such that all lie within the picture."""
-    first = int(np.floor(u + 0.5 * (2 - edges)))
-    return min(max(first, 1), cells - edges)

@@ -2,6 +2,10 @@
 
 coarse: some pixels beside where edges are thought to be; place and levels, then everything
 fine: all pixels beside where edges are by now; everything, and bows
+
+Of a marker that was measured in the image before, it is known how it looks and, nearly, where it
+is: one choice of pixels is enough, and some of them for place and levels. Where that does not do,
+it begins anew. What is found rests on the pixels of this image alone.
 """
 
 import numpy as np
@@ -9,7 +13,7 @@ import numpy as np
 from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.behind import reaches_edges, with_surround
 from tagmetry.detect.photometric.corners import write_corners
-from tagmetry.detect.photometric.fit import fit_pixels, variance_beside_edges
+from tagmetry.detect.photometric.fit import fit_pixels, picture_moved_px, variance_beside_edges
 from tagmetry.detect.photometric.ink import changes
 from tagmetry.detect.photometric.kernel import Narrow, kernel, step
 from tagmetry.detect.photometric.model import (
@@ -17,6 +21,7 @@ from tagmetry.detect.photometric.model import (
     BLUR,
     BOWS,
     COUNT,
+    EXPONENT,
     SLOPES,
     blur_in_cells,
     cells_at,
@@ -37,6 +42,8 @@ _COARSE_BESIDE_PX, BESIDE_PX = 1.5, 0.9  # farther pixels say little of an edge
 _COARSE_SPARE_PX, _SPARE_PX = 1.0, 0.2  # that a first guess may be wrong by
 # A round that moves the picture less was the last: of place and levels, of all, of all pixels.
 _ROUGHLY_PX, _NEARLY_PX, SETTLED_PX = 0.15, 0.03, 0.12
+_OTHER_BLUR, _OTHER_EXPONENT = 0.5, 0.2  # its variance as a share; its logarithm
+_NEAR_PX = 0.4  # that a first guess may be wrong by where pixels are chosen only once
 _SIGHT = 6.0  # blurs, both sides of a pixel together
 
 
@@ -57,7 +64,8 @@ def fit_markers(
         grey: The image.
         inks: Cells of all pictures, row by row, one picture after the other, 1 is white.
         sizes: Cells along a side of each, shape (n,).
-        starts: From `first_fits`, shape (n, 23).
+        starts: From `first_fits`, shape (n, 23); zeros after the homography where it is not known
+            how a marker looks.
         frames: Middle x, y and half diagonal, pixels, shape (n, 3).
         lenses: See `lenses_around`.
         squares: First and last cell coordinate of the squares, shape (n, 2).
@@ -94,16 +102,58 @@ def fit_marker(
     joint: Array,
 ) -> tuple[float, float]:
     """Write the fit, corners and covariance of one marker; return noise and the last move."""
-    noise, moved_px = _fit_coarsely(view, ink, fit)
-    if not np.isfinite(moved_px):
-        return noise, np.inf
-    if reaches_edges(fit):
-        ink = with_surround(view.grey, ink, fit, view.frame, view.lens)
     numbers = COUNT if bows else BOWS
-    noise, moved_px, covariance = _fit_finely(view, ink, fit, noise, numbers)
+    noise, moved_px, covariance = 0.0, np.inf, (np.zeros((numbers, numbers)), np.ones(numbers))
+    first = fit.copy()
+    if fit[BLACK] > 0.0:
+        noise, moved_px, covariance = _fit_as_before(view, ink, fit, numbers)
+    if not moved_px < SETTLED_PX:
+        fit[:BLACK], fit[BLACK:] = first[:BLACK], 0.0
+        noise, moved_px, covariance = _fit_anew(view, ink, fit, numbers)
     if np.isfinite(moved_px):
         _write_corners(view, fit, square, covariance, places, joint)
     return noise, moved_px
+
+
+@step
+def _fit_as_before(view: View, ink: Array, fit: Array, numbers: int) -> tuple[float, float, Factor]:
+    """Improve a fit that begins with how the marker looked in the image before; returns as below.
+
+    The pixels are chosen once, so this holds for first places that are nearly right only.
+    """
+    if reaches_edges(fit):
+        ink = with_surround(view.grey, ink, fit, view.frame, view.lens)
+    before = fit.copy()
+    count = gather(view, ink, fit, BESIDE_PX, FINE_PIXELS)
+    edges = _with_windows(view, ink, fit, count, _NEAR_PX)
+    every = 1 + count // (2 * _COARSE_PIXELS)
+    noise, _, _, _ = fit_pixels(view, fit, count, edges, SLOPES, _ROUGHLY_PX, _FIRST_NOISE, every)
+    far_px = picture_moved_px(before, fit - before, view.frame[2])
+    noise, moved_px, covariance = _finely(view, fit, count, edges, noise, numbers)
+    if not far_px < _NEAR_PX or _looks_otherwise(before, fit):
+        moved_px = np.inf
+    return noise, moved_px, covariance
+
+
+@step
+def _looks_otherwise(before: Array, fit: Array) -> bool:
+    """Say whether blur or exponent changed so much that the fit should begin anew."""
+    blur = (fit[BLUR] + fit[BLUR + 2]) / (before[BLUR] + before[BLUR + 2])
+    changed = abs(fit[EXPONENT] - before[EXPONENT])
+    return bool(abs(blur - 1.0) > _OTHER_BLUR or changed > _OTHER_EXPONENT)
+
+
+@step
+def _fit_anew(view: View, ink: Array, fit: Array, numbers: int) -> tuple[float, float, Factor]:
+    """Improve a fit of which only the place is known, to a pixel or so; returns as below."""
+    noise, moved_px = _fit_coarsely(view, ink, fit)
+    if not np.isfinite(moved_px):
+        return noise, np.inf, (np.zeros((numbers, numbers)), np.ones(numbers))
+    if reaches_edges(fit):
+        ink = with_surround(view.grey, ink, fit, view.frame, view.lens)
+    count = gather(view, ink, fit, BESIDE_PX, FINE_PIXELS)
+    edges = _with_windows(view, ink, fit, count, _SPARE_PX)
+    return _finely(view, fit, count, edges, noise, numbers)
 
 
 @step
@@ -123,12 +173,15 @@ def _fit_coarsely(view: View, ink: Array, fit: Array) -> tuple[float, float]:
 
 
 @step
-def _fit_finely(
-    view: View, ink: Array, fit: Array, noise: float, numbers: int
+def _finely(
+    view: View, fit: Array, count: int, edges: int, noise: float, numbers: int
 ) -> tuple[float, float, Factor]:
-    """Improve a fit by all of the pixels; return as above, and the covariance's factor."""
-    count = gather(view, ink, fit, BESIDE_PX, FINE_PIXELS)
-    edges = _with_windows(view, ink, fit, count, _SPARE_PX)
+    """Improve a fit by all of the chosen pixels.
+
+    Returns:
+        The noise; how far the picture moved last (px), infinite where there is no solution; the
+        covariance's factor.
+    """
     noise, moved_px, L, scale = fit_pixels(view, fit, count, edges, numbers, SETTLED_PX, noise)
     variance = variance_beside_edges(view, fit, count, edges, noise)
     variance *= count / max(count - numbers, 1)

@@ -25,6 +25,8 @@ from tagmetry.geometry import Array
 
 BLACK, SLOPES, EXPONENT, BLUR, BOWS = 8, 10, 14, 15, 18
 COUNT = 23
+LOOK_COUNT = BOWS - BLACK
+LOOKS = slice(BLACK, BOWS)  # how light, camera and blur make the picture look
 
 
 @kernel

@@ -4,7 +4,7 @@ import numpy as np
 
 from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.evaluate import write_cells
-from tagmetry.detect.photometric.ink import QUIET_CELLS, first_edge
+from tagmetry.detect.photometric.ink import QUIET_CELLS
 from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
 from tagmetry.detect.photometric.model import cell_px
 from tagmetry.detect.photometric.sight import columns_in_sight, rows_in_sight, trusted_cells
@@ -37,13 +37,13 @@ def gather(view: View, ink: Array, fit: Array, beside_px: float, wanted: int) ->
     rule = beside_px, _flat_among(cell_px(fit, frame[2]) * cells, every, wanted)
     narrow, bend = (fit.astype(np.float32), view.lens.astype(np.float32)), bend_of(view.lens)
     first_row, last_row = rows_in_sight(fit, frame, cells, grey.shape[0], bend)
-    count, lane, turn = 0, 0, 0
+    count, lane, turn, per_px = 0, 0, 0, 1.0 / frame[2]
     for image_row in range(first_row, last_row + 1):
         left, right = columns_in_sight(fit, frame, cells, grey.shape[1], bend, image_row)
         left += int(every * ((image_row * _GOLDEN) % 1.0))
+        y = (image_row - frame[1]) * per_px
         for column in range(left, right + 1, every):
-            room[row.X + lane] = (column - frame[0]) / frame[2]
-            room[row.Y + lane] = (image_row - frame[1]) / frame[2]
+            room[row.X + lane], room[row.Y + lane] = (column - frame[0]) * per_px, y
             room[row.SEEN + lane] = grey[image_row, column]
             lane += 1
             if lane == row.BLOCK:
@@ -195,18 +195,43 @@ def set_windows(view: View, fit: Array, count: int, all_changes: Array, edges: i
         edges: How many edges of each direction a pixel sees.
     """
     room, cells, narrow = view.room, all_changes.shape[3], fit.astype(np.float32)
+    flat = all_changes.reshape(4, cells * cells)
     for b in range(-(-count // row.BLOCK)):
         pixel = view.pixels[b]
         for k in range(row.COUNTS):
             room[k] = pixel[k]
         write_cells(room, narrow)
-        for p in range(row.BLOCK):
-            pixel[row.COUNTS + p] = 1.0 if b * row.BLOCK + p < count else 0.0
-            first_u = first_edge(room[row.U + p], edges, cells)
-            first_v = first_edge(room[row.V + p], edges, cells)
-            pixel[row.FIRST_U + p], pixel[row.FIRST_V + p] = first_u, first_v
-            to = row.CHANGES + p
-            for j in range(edges + 1):
-                for i in range(edges + 1):
-                    pixel[to] = all_changes[min(j, 1), min(i, 1), first_v + j - 1, first_u + i - 1]
-                    to += row.BLOCK
+        _set_firsts(pixel, room, edges, cells, count - b * row.BLOCK)
+        for j in range(edges + 1):
+            for i in range(edges + 1):
+                first, kind = i + (edges + 1) * j, 2 * min(j, 1) + min(i, 1)
+                shift = (j - 1) * cells + i - 1
+                _set_changes(
+                    pixel[row.CHANGES + first * row.BLOCK :], pixel, flat[kind], cells, shift
+                )
+
+
+@kernel
+def _set_firsts(pixel: Narrow, room: Narrow, edges: int, cells: int, count: int) -> None:
+    """Write the first of the edges nearest to pixels; those past the count do not count."""
+    before, last = f32(0.5 * (2 - edges)), f32(cells - edges)
+    for p in range(row.BLOCK):
+        u, v = np.floor(room[row.U + p] + before), np.floor(room[row.V + p] + before)
+        pixel[row.FIRST_U + p] = _within(u, last)
+        pixel[row.FIRST_V + p] = _within(v, last)
+        pixel[row.COUNTS + p] = f32(1) if p < count else f32(0)
+
+
+@kernel
+def _within(edge: f32, last: f32) -> f32:
+    """Return an edge between the first and the last one; 1 for what is not a number."""
+    edge = edge if edge > f32(1) else f32(1)  # noqa: FURB136 (says what NaN gives)
+    return edge if edge < last else last  # noqa: FURB136
+
+
+@kernel
+def _set_changes(changes: Narrow, pixel: Narrow, changed: Array, cells: int, shift: int) -> None:
+    """Write the change of ink at one corner of every pixel's window."""
+    for p in range(row.BLOCK):
+        at = int(pixel[row.FIRST_V + p]) * cells + int(pixel[row.FIRST_U + p])
+        changes[p] = changed[at + shift]

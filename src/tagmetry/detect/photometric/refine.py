@@ -23,7 +23,7 @@ from tagmetry.detect.photometric.bows import believed
 from tagmetry.detect.photometric.fit import EXPONENTS
 from tagmetry.detect.photometric.ink import printed
 from tagmetry.detect.photometric.marker import SETTLED_PX
-from tagmetry.detect.photometric.model import BLACK, BOWS, EXPONENT
+from tagmetry.detect.photometric.model import BLACK, BOWS, EXPONENT, LOOK_COUNT, LOOKS
 from tagmetry.detect.photometric.start import are_squares, first_fits, frames_of
 from tagmetry.detect.photometric.straight import lenses_around
 from tagmetry.detect.photometric.threads import fit_by_threads
@@ -72,19 +72,22 @@ class Fitted:
         covariances_px2: Shape (n, 8, 8).
         sound: Whether the picture was found to explain the pixels, shape (n,); where not, the
             corners are those given and the covariance means nothing.
+        looks: How light, camera and blur make each look, for the next image's fit to begin with;
+            NaN where not sound, shape (n, 10).
     """
 
     corners_px: Array
     covariances_px2: Array
     sound: BoolArray
+    looks: Array
 
     def with_some(self, which: IntArray, others: "Fitted") -> "Fitted":
         """Return these with those at `which` replaced, shape (m,)."""
         corners, covariances = self.corners_px.copy(), self.covariances_px2.copy()
-        sound = self.sound.copy()
+        sound, looks = self.sound.copy(), self.looks.copy()
         corners[which], covariances[which] = others.corners_px, others.covariances_px2
-        sound[which] = others.sound
-        return Fitted(corners, covariances, sound)
+        sound[which], looks[which] = others.sound, others.looks
+        return Fitted(corners, covariances, sound, looks)
 
 
 def fit_pictures(
@@ -93,6 +96,7 @@ def fit_pictures(
     pictures: Sequence[Picture],
     camera: Camera | None = None,
     threads: int | None = None,
+    looks: Array | None = None,
 ) -> Fitted:
     """Fit markers' pictures to an image.
 
@@ -103,15 +107,22 @@ def fit_pictures(
         pictures: What is printed there, n of them.
         camera: Intrinsics, so that edges are followed along their curves.
         threads: How many to use at most; by default as many as OpenCV does.
+        looks: How each looked in the image before, NaN where that is not known, shape (n, 10).
+            Fits only begin with it, and are the quicker for it; those places must be good to some
+            tenths of a pixel.
     """
     given_px = np.asarray(corners_px, dtype=np.float64).reshape(-1, 4, 2)
-    found = Fitted(given_px, np.tile(np.eye(8), (len(given_px), 1, 1)), are_squares(given_px))
+    unknown = np.full((len(given_px), LOOK_COUNT), np.nan)
+    found = Fitted(
+        given_px, np.tile(np.eye(8), (len(given_px), 1, 1)), are_squares(given_px), unknown
+    )
     if not found.sound.any():
         return found
     which = np.flatnonzero(found.sound)
     kept = [pictures[int(k)] for k in which]
     threads = cv2.getNumThreads() if threads is None else threads
-    fitted = _fitted(grey, given_px[which], kept, camera, threads)
+    looks = unknown if looks is None else looks
+    fitted = _fitted(grey, given_px[which], kept, camera, threads, looks[which])
     return found.with_some(which, fitted)
 
 
@@ -121,6 +132,7 @@ def _fitted(
     pictures: Sequence[Picture],
     camera: Camera | None,
     threads: int,
+    looks: Array,
 ) -> Fitted:
     """Fit the pictures of markers whose first corners are squares."""
     frames = frames_of(corners_px)
@@ -128,7 +140,7 @@ def _fitted(
     bowing = (half_px >= _BOWING_HALF_PX) & (camera is None)
     lenses, inks = lenses_around(camera, frames), [picture.ink for picture in pictures]
     squares = _squares(inks, pictures)
-    starts = first_fits(corners_px, frames, lenses, squares)
+    starts = first_fits(corners_px, frames, lenses, squares, looks)
     fits, places, joints, noises, moves_px = fit_by_threads(
         grey, inks, (starts, frames, lenses, squares, bowing), threads
     )
@@ -142,7 +154,9 @@ def _fitted(
     moved_px = frames[:, None, :2] + half_px[:, None, None] * places
     covariances_px2 = half_px[:, None, None] ** 2 * covariances + _FLOOR_PX**2 * np.eye(8)
     sound &= _plausible(moved_px, covariances_px2, corners_px, half_px)
-    return Fitted(np.where(sound[:, None, None], moved_px, corners_px), covariances_px2, sound)
+    looks = np.where(sound[:, None], fits[:, LOOKS], np.nan)
+    corners_px = np.where(sound[:, None, None], moved_px, corners_px)
+    return Fitted(corners_px, covariances_px2, sound, looks)
 
 
 def _squares(inks: Sequence[Array], pictures: Sequence[Picture]) -> Array:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tagmetry.detect.photometric.kernel import kernel
-from tagmetry.detect.photometric.model import COUNT
+from tagmetry.detect.photometric.model import COUNT, LOOKS
 from tagmetry.detect.photometric.straight import straight_place
 from tagmetry.geometry import Array, square_to_quad
 from tagmetry.geometry.arrays import BoolArray
@@ -26,7 +26,9 @@ def frames_of(corners_px: Array) -> Array:
     return np.concatenate([middle, half_px[:, None]], axis=1)
 
 
-def first_fits(corners_px: Array, frames: Array, lenses: Array, squares: Array) -> Array:
+def first_fits(
+    corners_px: Array, frames: Array, lenses: Array, squares: Array, looks: Array
+) -> Array:
     """Return the numbers of the model with the homographies of first corners, shape (n, 23).
 
     Args:
@@ -34,6 +36,7 @@ def first_fits(corners_px: Array, frames: Array, lenses: Array, squares: Array) 
         frames: Middle x, y and half diagonal of the markers, pixels, shape (n, 3).
         lenses: See `lenses_around`.
         squares: First and last cell coordinate of the squares, shape (n, 2).
+        looks: How each looked before; NaN where that is not known, shape (n, 10).
     """
     places = (corners_px - frames[:, None, :2]) / frames[:, None, 2:]
     cells = np.zeros((len(places), 3, 3))
@@ -46,6 +49,7 @@ def first_fits(corners_px: Array, frames: Array, lenses: Array, squares: Array) 
         H[~(np.abs(np.linalg.det(H)) > 0)] = np.nan  # which a fit gives up
         G = cells @ np.linalg.inv(H)
         fits[:, :8] = (G / G[:, 2:, 2:]).reshape(-1, 9)[:, :8]
+    fits[:, LOOKS] = np.nan_to_num(looks)
     return fits
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from tagmetry.detect.exact import Exact
 from tagmetry.detect.track.known import Known
 from tagmetry.detect.track.motion import moved
 from tagmetry.detect.track.seen import Seen
@@ -12,21 +13,25 @@ from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 
 
-def followed(known: Known, seen: Seen, corners_px: Array, time_s: float, forget_s: float) -> Tracks:
+def followed(known: Known, seen: Seen, exact: Exact, time_s: float, forget_s: float) -> Tracks:
     """Return the markers to follow into the next image.
 
     Args:
         known: The markers that were looked for.
         seen: The m markers that it shows.
-        corners_px: Where exactly, shape (m, 4, 2).
+        exact: Where exactly, and how they look.
         time_s: Time of this image.
         forget_s: For how long markers are followed that are not seen.
     """
+    corners_px, looks = exact.corners_px, exact.looks
     continues = _go_on(known, seen, corners_px)
     rows, new = seen.rows[continues], seen.at(~continues)
     going_on = moved(known.tracks.at(rows), known.corners_px[rows], corners_px[continues], time_s)
     begun = Tracks.begun(new.families, new.ids, new.is_inverted, corners_px[~continues], time_s)
-    return going_on.and_also(begun).and_also(_waiting(known.tracks, seen, time_s - forget_s))
+    there = going_on.and_also(begun)
+    looks = np.concatenate([looks[continues], looks[~continues]])
+    waiting = _waiting(known.tracks, seen, time_s - forget_s)
+    return replace(there, looks=looks).and_also(waiting)
 
 
 def _go_on(known: Known, seen: Seen, corners_px: Array) -> BoolArray:

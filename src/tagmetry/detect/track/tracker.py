@@ -15,9 +15,9 @@ from tagmetry.camera import Camera
 from tagmetry.detect.choose import best_per_place
 from tagmetry.detect.detection import Detection
 from tagmetry.detect.detector import Detector, default_min_side_px
-from tagmetry.detect.exact import exact_corners
+from tagmetry.detect.exact import Exact, exact_corners
 from tagmetry.detect.expected import expected_picture
-from tagmetry.detect.refine import Corners
+from tagmetry.detect.photometric import LOOK_COUNT
 from tagmetry.detect.segment import TURNS
 from tagmetry.detect.track.claims import claimed
 from tagmetry.detect.track.expected import as_expected
@@ -158,11 +158,12 @@ class Tracker:
         known = known_at(self._tracks, self._announced, time_s, since_s, self.fastest_px_s)
         expected = as_expected(looked_at, families, self.detector.rules, known)
         found = self._found(looked_at, known, expected)
-        seen, corners = _exact(looked_at, expected, found, families, camera)
-        self._tracks = followed(known, seen, corners.corners_px, time_s, self.forget_s)
+        looks = known.tracks.looks[expected.rows]
+        seen, exact = _exact(looked_at, expected, looks, found, families, camera)
+        self._tracks = followed(known, seen, exact, time_s, self.forget_s)
         self._time_s, self._size_px, self._turn = time_s, size_px, self._turn + 1
         self._announced = []
-        return detections(seen, corners, families, size_px)
+        return detections(seen, exact, families, size_px)
 
     def _checked(self, image: AnyPixels, time_s: float, camera: Camera | None) -> Greyed:
         looked_at = Greyed(image)
@@ -214,23 +215,26 @@ class Tracker:
 def _exact(
     looked_at: Greyed,
     expected: Seen,
+    looks: Array,
     found: Seen,
     families: Sequence[MarkerFamily],
     camera: Camera | None,
-) -> tuple[Seen, Corners]:
+) -> tuple[Seen, Exact]:
     """Return the markers that are reported, with their exact corners.
 
-    What was seen where it was expected must be measured too, to be believed.
+    What was seen where it was expected must be measured too, to be believed. How those looked in
+    the image before is known, shape (m, 10).
     """
     seen = expected.and_also(found)
     if not len(seen):
-        return seen, Corners(seen.corners_px, np.zeros((0, 8, 8)), np.zeros(0, dtype=bool))
+        return seen, Exact.nothing()
     pictures = [
         expected_picture(looked_at.grey, seen.corners_px[i], families[place], int(seen.ids[i]))
         for i, place in enumerate(seen.families.tolist())
     ]
-    exact = exact_corners(looked_at.grey, seen.corners_px, pictures, camera)
+    unknown = np.full((len(found), LOOK_COUNT), np.nan)
+    looks = np.concatenate([looks, unknown])
+    exact = exact_corners(looked_at.grey, seen.corners_px, pictures, camera, looks)
     kept = exact.refined.copy()
     kept[len(expected) :] = True
-    corners = Corners(exact.corners_px[kept], exact.covariances_px2[kept], exact.refined[kept])
-    return seen.at(kept), corners
+    return seen.at(kept), exact.at(kept)

@@ -5,6 +5,7 @@ from typing import Self
 
 import numpy as np
 
+from tagmetry.detect.photometric import LOOK_COUNT
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, IntArray
 
@@ -25,6 +26,8 @@ class Tracks:
         shake_px_s2: By what acceleration its corners were mispredicted, shape (n,).
         is_new: Seen once only: how it moves is not known, shape (n,).
         missed: In how many images it was not seen since, shape (n,).
+        looks: How light, camera and blur made each look, NaN where that is not known, shape
+            (n, 10); the fit of the next image begins with it.
     """
 
     families: IntArray
@@ -37,6 +40,7 @@ class Tracks:
     shake_px_s2: Array
     is_new: BoolArray
     missed: IntArray
+    looks: Array
 
     def __len__(self) -> int:
         """The number of markers."""
@@ -64,6 +68,7 @@ class Tracks:
             np.zeros(count),
             np.ones(count, dtype=bool),
             np.zeros(count, dtype=np.int64),
+            np.full((count, LOOK_COUNT), np.nan),
         )
 
     @classmethod
