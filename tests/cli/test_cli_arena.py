@@ -110,6 +110,24 @@ def test_a_run_writes_a_file_and_warns_of_strangers(
     assert "tag36h11 id 10 is no robot's and no floor marker" in said.err
 
 
+def test_simulated_robots_drive_among_those_of_the_pictures(
+    table: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("mujoco")
+    control = tmp_path / "mine.py"
+    control.write_text(
+        "from tagmetry.arena.drive import Twist\ndef control(view): return Twist(0.1, 0)\n"
+    )
+    options = ["--virtual", "2", "--controller", str(control), "--link", "127.0.0.1:0"]
+    assert arena(table, "run", "turn", *options) == 0
+    lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [one["name"] for one in lines[0]["robots"]] == ["ada", "virtual 2", "virtual 3"]
+    driven_m = lines[-1]["robots"][1]["x_m"] - lines[0]["robots"][1]["x_m"]
+    assert driven_m == pytest.approx(7 * 0.2 * 0.1, abs=0.03)  # 0.2 s of each second between
+    (told, *_) = (one for one in lines[0]["told"] if one["id"] == 1)
+    assert {one["id"] for one in told["neighbours"]} == {2, 3}
+
+
 def test_an_audit_writes_table_and_map(
     table: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

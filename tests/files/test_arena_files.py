@@ -1,14 +1,16 @@
 """An arena's file says what it says, bad ones are refused with one clear line, worlds come back."""
 
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from tagmetry.arena import Disc, FloorCorners, OverheadView, Wall
+from tagmetry.arena.place import Place
 from tagmetry.camera import Camera
 from tagmetry.errors import InputError
-from tagmetry.files.arena import ArenaWorld, load_arena, load_world, save_world
+from tagmetry.files.arena import ArenaWorld, load_arena, load_world, save_world, with_virtual
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.localize import MapMarker, MarkerMap
@@ -174,6 +176,47 @@ def test_refuses_an_arena_without_floor_markers_or_robots(
 def test_refuses_a_link_without_keys(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="robot 2 has no key"):
         load_arena(written(tmp_path, ARENA)).keys()
+
+
+VIRTUAL = """
+  - id: 3
+    virtual: true
+    start: {x_m: 0.5, y_m: -0.5, heading_deg: 90}
+    marker: {id: 3, height_m: 0.1}
+  - {id: 4, virtual: true, marker: {id: 4, height_m: 0.1}}
+"""
+
+
+def test_some_robots_are_simulated_and_need_no_key(tmp_path: Path) -> None:
+    text = ARENA.replace("    diameter_m: 0.2", f"    diameter_m: 0.2\n    key: {'0b' * 32}")
+    found = load_arena(written(tmp_path, text + VIRTUAL))
+    assert found.virtual[3] == Place(0.5, -0.5, np.pi / 2)
+    assert found.safety.fence is not None
+    assert found.safety.fence.inside_m(found.virtual[4].xy_m) > 0.1
+    assert found.virtual[4].distance_m(found.virtual[3]) >= 0.3
+    assert set(found.keys()) == {1, 2}
+
+
+def test_more_simulated_robots_take_free_numbers_markers_and_places(tmp_path: Path) -> None:
+    found = with_virtual(load_arena(written(tmp_path, ARENA)), 3)
+    more = found.roster.robots[2:]
+    assert [(one.id, one.name, one.marker_id) for one in more] == [
+        (3, "virtual 3", 586),
+        (4, "virtual 4", 585),
+        (5, "virtual 5", 584),
+    ]
+    places = list(found.virtual.values())
+    assert min(a.distance_m(b) for a, b in combinations(places, 2)) >= 0.3
+    with pytest.raises(InputError, match="600 more robots find no free marker of tag36h11: 581"):
+        with_virtual(found, 600)
+    with pytest.raises(InputError, match="no free place any more"):
+        with_virtual(found, 300)
+
+
+def test_refuses_a_start_of_a_real_robot(tmp_path: Path) -> None:
+    text = ARENA + "    start: {x_m: 0, y_m: 0}\n"
+    with pytest.raises(InputError, match="robot 2: a start is for simulated robots"):
+        load_arena(written(tmp_path, text))
 
 
 def test_refuses_an_arena_that_is_not_there(tmp_path: Path) -> None:

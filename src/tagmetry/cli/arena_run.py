@@ -13,9 +13,9 @@ from tagmetry.cli.options import CameraFile
 
 if TYPE_CHECKING:
     from tagmetry.arena.controllers import Controller
-    from tagmetry.files.arena import ArenaSetup
+    from tagmetry.files.arena import ArenaSetup, ArenaWorld
     from tagmetry.link import Host
-    from tagmetry.pipeline.arena import ArenaResult, Latency, Taker
+    from tagmetry.pipeline.arena import ArenaResult, Beside, Latency, Taker
     from tagmetry.record.mcap import Recorder
 
 
@@ -45,6 +45,9 @@ def run(  # noqa: PLR0913 (each argument is an option)
         Path | None,
         typer.Option(help="Python file with a function control(view) that drives every robot."),
     ] = None,
+    virtual: Annotated[
+        int, typer.Option(min=0, max=100, help="So many simulated robots more.")
+    ] = 0,
     lead: Annotated[
         float, typer.Option(min=0.0, max=0.5, help="Predict so many seconds further ahead.")
     ] = 0.0,
@@ -58,13 +61,19 @@ def run(  # noqa: PLR0913 (each argument is an option)
     from tagmetry.pipeline.arena import ArenaMeasurement, Latency, run_arena
 
     setup, world = setup_and_world(arena, camera)
-    controllers = _controllers(controller, link)
+    setup = _with_virtual(setup, world, virtual)
+    controllers = _controllers(controller, link, has_virtual=bool(setup.virtual))
     tell_compiling()
     latency = Latency()
     with ExitStack() as stack:
         images = stack.enter_context(opened(source, world.view.camera))
         task = ArenaMeasurement.of(
-            setup, world, is_live=images.is_live, lead_s=lead, controllers=controllers
+            setup,
+            world,
+            is_live=images.is_live,
+            lead_s=lead,
+            controllers=controllers,
+            beside=_beside(setup, world),
         )
         stack.callback(task.turning.drivers.close)
         recorder = _recorder(stack, record, lossless=lossless, live=images.is_live)
@@ -82,14 +91,41 @@ def run(  # noqa: PLR0913 (each argument is an option)
     _sum_up(latency)
 
 
-def _controllers(path: Path | None, link: str | None) -> "Callable[[int], Controller] | None":
-    """Return what makes every robot's controller; it needs a link to send its commands by."""
+def _with_virtual(setup: "ArenaSetup", world: "ArenaWorld", count: int) -> "ArenaSetup":
+    """Return an arena with more simulated robots, in the middle of what the camera sees."""
+    import numpy as np
+
+    from tagmetry.files.arena import with_virtual
+
+    if not count:
+        return setup
+    middle_px = (np.array(world.view.camera.size_px) - 1) / 2
+    x_m, y_m, _ = world.view.points_on_plane(middle_px).tolist()
+    return with_virtual(setup, count, (x_m, y_m))
+
+
+def _beside(setup: "ArenaSetup", world: "ArenaWorld") -> "Beside | None":
+    """Return the arena's simulated robots, where it has any."""
+    if not setup.virtual:
+        return None
+    import numpy as np
+
+    from tagmetry.pipeline.arena_twin.virtual import VirtualRobots
+
+    rng = np.random.default_rng(setup.seed)
+    return VirtualRobots(setup.roster, setup.virtual, world.view, rng)
+
+
+def _controllers(
+    path: Path | None, link: str | None, *, has_virtual: bool
+) -> "Callable[[int], Controller] | None":
+    """Return what makes every robot's controller; real ones need a link to hear its commands."""
     if path is None:
         return None
     from tagmetry.errors import InputError
     from tagmetry.pipeline.arena.controller_file import load_controllers
 
-    if link is None:
+    if link is None and not has_virtual:
         raise InputError("--controller drives robots, and they hear nothing without --link ADDRESS")
     return load_controllers(path)
 
@@ -122,7 +158,7 @@ def _talkers(
     host = open_host(stack, setup, link, recorder)
     range_m = setup.sensor.range_m if setup.sensor is not None else float("inf")
     ranges_m = {number: one.range_m for number, one in setup.sensors.items()}
-    return [LinkTaker(host, range_m, ranges_m, poses=poses)]
+    return [LinkTaker(host, range_m, ranges_m, poses=poses, silent=setup.virtual.keys())]
 
 
 def open_host(

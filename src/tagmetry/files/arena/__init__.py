@@ -2,6 +2,7 @@
 
 from tagmetry.files.arena.floor import FloorMarker
 from tagmetry.files.arena.setup import ArenaSetup, load_arena
+from tagmetry.files.arena.virtual import with_virtual
 from tagmetry.files.arena.world import ArenaWorld, load_world, save_world
 
 __all__ = [
@@ -11,4 +12,5 @@ __all__ = [
     "load_arena",
     "load_world",
     "save_world",
+    "with_virtual",
 ]

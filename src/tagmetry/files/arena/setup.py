@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import radians
 from pathlib import Path
 
 from tagmetry.arena import (
@@ -13,8 +14,10 @@ from tagmetry.arena import (
     Roster,
     SafetyRules,
 )
+from tagmetry.arena.place import Place, turned_rad
 from tagmetry.errors import InputError
 from tagmetry.files.arena.floor import FloorMarker, floor_of, frame_of
+from tagmetry.files.arena.places import starts_of
 from tagmetry.files.arena.robots import robot_of
 from tagmetry.files.arena.senses import obstacle_of, point_of, sensor_of
 from tagmetry.files.arena.tables import ArenaTable
@@ -48,6 +51,7 @@ class ArenaSetup:
         motion: How robots move.
         seed: Of the sensors' random numbers.
         families: Those that a detector has to look for, each once.
+        virtual: Where robots start that are simulated, by id; the others are real.
     """
 
     name: str
@@ -64,6 +68,7 @@ class ArenaSetup:
     motion: Motion = field(default_factory=Motion)
     seed: int = 0
     families: tuple[MarkerFamily, ...] = ()
+    virtual: Mapping[int, Place] = field(default_factory=dict)
 
     @property
     def measured_floor(self) -> MarkerMap | None:
@@ -88,13 +93,14 @@ class ArenaSetup:
         return Neighbourhood(sensor, self.sensors, self.obstacles, radii_m, self.seed)
 
     def keys(self) -> Mapping[int, bytes]:
-        """Return the robots' keys by id, for the link.
+        """Return the real robots' keys by id, for the link.
 
         Raises:
             InputError: A robot has none.
         """
-        found = {robot.id: robot.key for robot in self.roster.robots if robot.key is not None}
-        without = [robot.name for robot in self.roster.robots if robot.key is None]
+        real = [robot for robot in self.roster.robots if robot.id not in self.virtual]
+        found = {robot.id: robot.key for robot in real if robot.key is not None}
+        without = [robot.name for robot in real if robot.key is None]
         if without:
             raise InputError(
                 f"{without[0]} has no key, and without one no robot is talked to; give it "
@@ -147,7 +153,23 @@ def _setup(table: ArenaTable, path: Path) -> ArenaSetup:
         Motion(**table.motion.model_dump()),
         table.seed,
         _families(table, floor),
+        _virtual(table, roster, fence),
     )
+
+
+def _virtual(table: ArenaTable, roster: Roster, fence: Fence | None) -> dict[int, Place]:
+    """Return where each simulated robot starts."""
+    given = {one.id: one.start for one in table.robots if one.virtual}
+    astray = [one.id for one in table.robots if one.start is not None and not one.virtual]
+    if astray:
+        raise InputError(f"robot {astray[0]}: a start is for simulated robots; add `virtual: true`")
+    said = {
+        key: Place(one.x_m, one.y_m, turned_rad(radians(one.heading_deg))) if one else None
+        for key, one in given.items()
+    }
+    widest_m = max(robot.diameter_m for robot in roster.robots)
+    with named_errors("robots"):
+        return starts_of(said, fence, widest_m)
 
 
 def _families(table: ArenaTable, floor: tuple[FloorMarker, ...]) -> tuple[MarkerFamily, ...]:

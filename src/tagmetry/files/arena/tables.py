@@ -38,8 +38,16 @@ class SensorTable(OwnFileModel):
     most: int | None = None
 
 
+class StartTable(OwnFileModel):
+    """Where a simulated robot starts."""
+
+    x_m: float
+    y_m: float
+    heading_deg: float = 0.0
+
+
 class RobotTable(OwnFileModel):
-    """A robot."""
+    """A robot; a virtual one is simulated, and starts at a free place where none is given."""
 
     id: int
     name: str | None = None
@@ -47,6 +55,8 @@ class RobotTable(OwnFileModel):
     marker: MarkerTable
     sensor: SensorTable | None = None
     key: str | None = None
+    virtual: bool = False
+    start: StartTable | None = None
 
 
 class FloorMarkerTable(OwnFileModel):

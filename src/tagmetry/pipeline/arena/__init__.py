@@ -2,7 +2,7 @@
 
 from tagmetry.pipeline.arena.calibrate import calibrate_arena
 from tagmetry.pipeline.arena.latency import Latency
-from tagmetry.pipeline.arena.measurement import ArenaMeasurement, ArenaResult
+from tagmetry.pipeline.arena.measurement import ArenaMeasurement, ArenaResult, Beside
 from tagmetry.pipeline.arena.posted import Posted
 from tagmetry.pipeline.arena.run import run_arena
 from tagmetry.pipeline.arena.taker import Taker
@@ -11,6 +11,7 @@ from tagmetry.pipeline.arena.turning import Turn, Turning
 __all__ = [
     "ArenaMeasurement",
     "ArenaResult",
+    "Beside",
     "Latency",
     "Posted",
     "Taker",

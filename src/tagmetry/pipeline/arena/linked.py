@@ -1,8 +1,8 @@
 """What robots are told over the link: neighbours, their pose where they may know it, stops."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
-from tagmetry.link import Command, Host
+from tagmetry.link import Command, Host, Message
 from tagmetry.pipeline.arena.measurement import ArenaResult, image_time_s
 from tagmetry.pipeline.arena.messages import command_message, neighbours_message, pose_message
 
@@ -22,6 +22,7 @@ class LinkTaker:
         *,
         poses: bool = False,
         every_s: float = 0.02,
+        silent: Collection[int] = (),
     ) -> None:
         """Send nothing yet.
 
@@ -31,9 +32,11 @@ class LinkTaker:
             ranges_m: Of some robots, by id, another one.
             poses: Robots may know where they are in the world.
             every_s: Least time between two messages to a robot; wireless nets stand no more.
+            silent: Robots that have no link, such as simulated ones, by id.
         """
         self._host, self._poses, self._every_s = host, poses, every_s
         self._range_m, self._ranges_m = range_m, dict(ranges_m or {})
+        self._silent = frozenset(silent)
         self._sent_s = float("-inf")
         self._is_stopped = False
 
@@ -47,11 +50,11 @@ class LinkTaker:
         self._drive(result)
         for told in result.told:
             range_m = self._ranges_m.get(told.robot_id, self._range_m)
-            self._host.send(told.robot_id, neighbours_message(told, range_m, result.taken_s))
+            self._send(told.robot_id, neighbours_message(told, range_m, result.taken_s))
         if self._poses:
             acts_s = result.taken_s + result.world.time_s - image_time_s(result.image)
             for state in result.world:
-                self._host.send(state.id, pose_message(state, acts_s))
+                self._send(state.id, pose_message(state, acts_s))
 
     def close(self) -> None:
         """The host falls silent by itself, and robots stop."""
@@ -59,10 +62,14 @@ class LinkTaker:
     def _drive(self, result: ArenaResult) -> None:
         """Send commands, to stand still where a robot must not drive."""
         for robot_id, twist in result.commands.items():
-            self._host.send(robot_id, command_message(twist))
+            self._send(robot_id, command_message(twist))
         for one in result.decisions:
             if one.must_stop:
-                self._host.send(one.robot_id, Command(valid_for_ms=0))
+                self._send(one.robot_id, Command(valid_for_ms=0))
+
+    def _send(self, robot_id: int, message: Message) -> None:
+        if robot_id not in self._silent:
+            self._host.send(robot_id, message)
 
     def _stop(self, result: ArenaResult) -> None:
         if result.stop.is_pressed and not self._is_stopped:

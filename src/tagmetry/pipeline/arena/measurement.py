@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 from tagmetry.arena import Arena, ArenaStep, Decision, StopForAll, Told, WorldState
 from tagmetry.arena.controllers import Controller
@@ -14,7 +15,7 @@ from tagmetry.files.arena import ArenaSetup, ArenaWorld
 from tagmetry.files.text import named_errors
 from tagmetry.pipeline.arena.drivers import Drivers
 from tagmetry.pipeline.arena.guarded import Guarded
-from tagmetry.pipeline.arena.turning import Turning
+from tagmetry.pipeline.arena.turning import Turn, Turning
 
 _LONGEST_LEAD_S = 0.5
 
@@ -53,6 +54,16 @@ class ArenaResult:
         return self.done_s - self.taken_s
 
 
+class Beside(Protocol):
+    """Robots that are simulated beside the real ones."""
+
+    def look(self, time_s: float) -> tuple[Detection, ...]:
+        """Return the markers that an image of this moment would show."""
+
+    def drive(self, turn: Turn) -> None:
+        """Take what the host decided."""
+
+
 @dataclass
 class ArenaMeasurement:
     """What is done with every image of an arena.
@@ -65,6 +76,7 @@ class ArenaMeasurement:
         is_live: Images arrive by themselves; the state is predicted to the time of sending.
         lead_s: How much later than the sending what is told takes effect, predicted as well.
         clock: Seconds that never go back.
+        beside: Simulated robots; none when None.
     """
 
     turning: Turning
@@ -74,6 +86,7 @@ class ArenaMeasurement:
     is_live: bool = False
     lead_s: float = 0.0
     clock: Callable[[], float] = time.monotonic
+    beside: Beside | None = None
 
     def __post_init__(self) -> None:
         if not 0 <= self.lead_s <= _LONGEST_LEAD_S:
@@ -89,6 +102,7 @@ class ArenaMeasurement:
         is_live: bool = False,
         lead_s: float = 0.0,
         controllers: Callable[[int], Controller] | None = None,
+        beside: Beside | None = None,
     ) -> "ArenaMeasurement":
         """Return the measurement of an arena's files.
 
@@ -99,6 +113,7 @@ class ArenaMeasurement:
             is_live: Images arrive by themselves.
             lead_s: How much later than the sending what is told takes effect.
             controllers: Makes a robot's controller from its id; robots drive themselves when None.
+            beside: Simulated robots of the arena.
 
         Raises:
             InputError: A robot's marker would be higher than the camera.
@@ -115,6 +130,7 @@ class ArenaMeasurement:
             Tracker(detector) if track else None,
             is_live,
             lead_s,
+            beside=beside,
         )
 
     def measure(self, image: Image) -> ArenaResult:
@@ -134,6 +150,8 @@ class ArenaMeasurement:
             turn = self.turning.turn(
                 detections, time_s, lambda: time_s + self._until_it_acts_s(began_s)
             )
+        if self.beside is not None:
+            self.beside.drive(turn)
         return ArenaResult(
             image,
             detections,
@@ -161,9 +179,10 @@ class ArenaMeasurement:
         self.turning.stop = self.stop.reset()
 
     def _detections(self, image: Image, time_s: float) -> tuple[Detection, ...]:
+        simulated = self.beside.look(time_s) if self.beside is not None else ()
         if self.tracker is None:
-            return self.detector.detect(image.pixels, self.camera)
-        return self.tracker.track(image.pixels, time_s, self.camera)
+            return self.detector.detect(image.pixels, self.camera) + simulated
+        return self.tracker.track(image.pixels, time_s, self.camera) + simulated
 
     def _until_it_acts_s(self, taken_s: float) -> float:
         """Return how long after the image what is told takes effect.
