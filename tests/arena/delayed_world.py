@@ -1,7 +1,8 @@
 """A follower behind a leader that goes straight, integrated in small steps with a history.
 
-The wheels' delayed differential equation T dv/dt = f c(t - delay) - v, and its twin for turning, by
-Euler's rule with 1 ms steps: nothing of the stability report's matrices.
+The wheels' delayed differential equations T dv/dt = f c(t - delay) - v + H and, where their servo
+has an integral, K dH/dt = f c(t - delay) - v, and the same for turning, by Euler's rule with 1 ms
+steps: nothing of the stability report's matrices.
 """
 
 from dataclasses import dataclass, field
@@ -28,6 +29,7 @@ class DelayedWorld:
     gains: tuple[float, float] = (1.0, 1.0)
     image_s: float = 0.03
     motor_s: float = 0.05
+    hold_s: float = float("inf")
     start: Place = HERE
     noise_m: float = 0.0
     length_m: float = 0.20
@@ -38,7 +40,7 @@ class DelayedWorld:
         self.follower = SpringFollower(0, Spring(length_m=self.length_m))
         self.own = OwnMotion(self.motor_s)
         self.x_m, self.y_m, self.heading_rad = vars(self.start).values()
-        self.twist = Twist(self.speed_mps, 0.0)
+        self.twist, self.held = Twist(self.speed_mps, 0.0), [0.0, 0.0]
         self.gaps_m, self.aside_m = [], []
         self.own._moving = self.own._wanted = self.twist
         self.follower._speed_mps = self.speed_mps
@@ -72,15 +74,18 @@ class DelayedWorld:
         for line in self.wanted:
             while len(line) > 1 and line[1][0] <= time_s + 1e-9:
                 line.pop(0)
-        wish, share = Twist(self.wanted[0][0][1], self.wanted[1][0][1]), STEP_S / self.motor_s
-        speed, turn = self.twist.speed_mps, self.twist.turn_rate_radps
+        speed, turn = vars(self.twist).values()
         self.x_m += STEP_S * speed * np.cos(self.heading_rad)
         self.y_m += STEP_S * speed * np.sin(self.heading_rad)
         self.heading_rad += STEP_S * turn
-        self.twist = Twist(
-            speed + share * (self.gains[0] * wish.speed_mps - speed),
-            turn + share * (self.gains[1] * wish.turn_rate_radps - turn),
-        )
+        self.twist = Twist(self._followed(0, speed), self._followed(1, turn))
+
+    def _followed(self, n: int, rate: float) -> float:
+        """Return the speed or the turn rate a step later."""
+        missing = self.gains[n] * self.wanted[n][0][1] - rate
+        rate += STEP_S / self.motor_s * (missing + self.held[n])
+        self.held[n] += STEP_S / self.hold_s * missing
+        return rate
 
 
 def swing(values, first_s, last_s):

@@ -24,8 +24,8 @@ def setting(delay_s=0.05, **more):
 
 
 @cache
-def told(delay_s):
-    return stability(setting(delay_s))
+def told(delay_s, hold_s=None):
+    return stability(setting(delay_s, hold_s=hold_s))
 
 
 def growth(world, values, since_s):
@@ -34,16 +34,19 @@ def growth(world, values, since_s):
     return swing(kept, since_s + 2, since_s + 4) / swing(kept, since_s, since_s + 2)
 
 
-@pytest.mark.parametrize("delay_s", [0.05, 0.1])
+@pytest.mark.parametrize(("delay_s", "hold_s"), [(0.05, None), (0.1, None), (0.1, 0.2)])
 @pytest.mark.parametrize(
     ("part", "values", "start"), [("along", "gaps_m", AHEAD), ("across", "aside_m", ASIDE)]
 )
-def test_a_delay_beyond_the_margin_swings_up_and_one_below_it_decays(delay_s, part, values, start):
-    edge_s = getattr(told(delay_s), part).delay_s
+def test_a_delay_beyond_the_margin_swings_up_and_one_below_it_decays(
+    delay_s, hold_s, part, values, start
+):
+    edge_s = getattr(told(delay_s, hold_s), part).delay_s
     for share, swings_up in ((0.9, False), (1.1, True)):
         late_s = (share * edge_s, 0.0) if part == "along" else (0.0, share * edge_s)
-        grown = growth(DelayedWorld(delay_s, late_s, start=start), values, 4.0)
-        assert grown > 1.2 if swings_up else grown < 0.8
+        world = DelayedWorld(delay_s, late_s, start=start, hold_s=hold_s or float("inf"))
+        grown = growth(world, values, 4.0)
+        assert grown > 1.15 if swings_up else grown < 0.87
 
 
 @pytest.mark.parametrize(
@@ -116,12 +119,19 @@ def test_an_unstable_loop_says_so():
 
 
 def test_wheels_follow_a_command_as_a_lag_does():
-    rate = 1 / 0.05
-    wheels = Wheels(np.array([[0.0, 1.0], [0.0, -rate]]), np.array([0.0, rate]))
-    place, speed = wheels.after(np.zeros((2, 1)), np.array([0.3]), 0.08)[:, 0]
+    wheels = Wheels.of(np.array([[0.0, 1.0]]), 0.05, None)
+    place, speed = wheels.held(0.08).after(np.zeros((2, 1)), np.array([0.3]))[:, 0]
     left = np.exp(-0.08 / 0.05)
     assert speed == pytest.approx(0.3 * (1 - left))
     assert place == pytest.approx(0.3 * (0.08 - 0.05 * (1 - left)))
+
+
+def test_an_integral_makes_wheels_overshoot():
+    """T = 50 ms and K = 4 T: a step becomes 1 - (1 - t / 2T) exp(-t / 2T)."""
+    wheels = Wheels.of(np.array([[0.0, 1.0]]), 0.05, 0.2)
+    for time_s in (0.05, 0.2, 0.4):
+        speed = wheels.held(time_s).after(np.zeros((3, 1)), np.array([1.0]))[1, 0]
+        assert speed == pytest.approx(1 - (1 - time_s / 0.1) * np.exp(-time_s / 0.1))
 
 
 @pytest.mark.parametrize(("delay_s", "whole", "rest_s"), [(0, 0, 0), (0.06, 2, 0), (0.07, 2, 0.01)])
@@ -137,6 +147,7 @@ def test_a_delay_in_images(delay_s, whole, rest_s):
         (lambda: setting(float("nan")), "delay_s must be 0 to 2, got"),
         (lambda: FollowingSetting(image_s=0.0), "image_s must be 0.001 to 1, got"),
         (lambda: FollowingSetting(place_share=1.5), "place_share must be 0.001 to 1, got"),
+        (lambda: setting(hold_s=0.0), "hold_s must be 0.001 to 100, got"),
         (lambda: FollowingSetting(Spring(damping=0.0)), "spring's damping must be above 0"),
         (lambda: stability(setting(), diameter_m=0.2), "touch at a distance of 0.2 m"),
         (lambda: stability(setting(), place_sd_m=float("nan")), "place_sd_m must be 0 to 1 m"),

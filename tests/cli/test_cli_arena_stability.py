@@ -36,6 +36,13 @@ def test_an_arena_s_robots_and_sensor_count(capsys):
     assert noisy["gap_sd_m"] > 10 * quiet["gap_sd_m"]
 
 
+def test_a_servo_s_integral_costs_margin(capsys):
+    told = json.loads(said(capsys, "--delay-ms", 80, "--hold-ms", 200, "--json"))
+    report = stability(FollowingSetting(delay_s=0.08, hold_s=0.2))
+    assert told["along"] == pytest.approx(vars(report.along))
+    assert report.along.gain < stability(FollowingSetting(delay_s=0.08)).along.gain
+
+
 def test_a_spring_too_stiff_swings_up_and_fast_robots_may_touch(capsys):
     assert "it swings up" in said(capsys, "--delay-ms", 80, "--stiffness", 40)
     unstable = json.loads(said(capsys, "--delay-ms", 80, "--stiffness", 40, "--json"))

@@ -21,7 +21,7 @@ def test_two_robots_drive_and_are_drawn_and_recorded(tmp_path, capsys):
     text = said(capsys, "--seconds", 2, "--picture", picture, "--record", recording)
     assert text.startswith("2.0 s in ")
     assert "nearest 0." in text
-    assert "stability at 50 ms, along: gain x 1.7" in text
+    assert "stability at 50 ms, along: gain x 1.2" in text
     assert picture.read_bytes().startswith(b"\x89PNG")
     from tagmetry.record.mcap import STATES, read_entries
 

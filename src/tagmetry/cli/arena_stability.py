@@ -30,6 +30,10 @@ def stability(  # noqa: PLR0913 (each argument is an option)
         float, typer.Option(min=0.0, max=2000.0, help="By what the true delay is longer.")
     ] = 0.0,
     image_rate: Annotated[float, typer.Option(min=1.0, max=1000.0, help="Images per second.")] = 30,
+    motor_ms: Annotated[float, typer.Option(help="How soon its wheels follow a command.")] = 50.0,
+    hold_ms: Annotated[
+        float | None, typer.Option(help="Of an integral in their servo, if there is one.")
+    ] = None,
     speed: Annotated[float, typer.Option(help="Of the leader, m/s.")] = 0.2,
     length_mm: Annotated[float, typer.Option(help="Of the spring, centre to centre.")] = 200.0,
     stiffness: Annotated[float, typer.Option(help="Of the spring: its rate, 1/s.")] = 10.0,
@@ -62,6 +66,8 @@ def stability(  # noqa: PLR0913 (each argument is an option)
         delay_ms / 1000 + sensor.delay_s,
         untold_ms / 1000,
         1 / image_rate,
+        motor_ms / 1000,
+        None if hold_ms is None else hold_ms / 1000,
         speed_mps=speed,
     )
     sd_m = ((place_sd_mm / 1000) ** 2 + sensor.range_sd_m**2 / 2) ** 0.5

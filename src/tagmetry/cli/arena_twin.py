@@ -158,9 +158,17 @@ def _tell_stability(scenario: "Scenario") -> None:
     """Print what was to be expected of followers at this delay."""
     from tagmetry.arena.stability import FollowingSetting, stability
     from tagmetry.cli.arena_stability import stability_lines
+    from tagmetry.pipeline.arena_twin.run import TICK_S
 
-    setting = FollowingSetting(delay_s=scenario.delay_s, image_s=1 / scenario.image_rate_hz)
-    report = stability(setting, diameter_m=scenario.robots[0].robot.diameter_m)
+    twin = scenario.robots[0]
+    setting = FollowingSetting(
+        delay_s=scenario.delay_s,
+        untold_s=TICK_S,  # until the robot's computer looks at what has arrived
+        image_s=1 / scenario.image_rate_hz,
+        motor_s=twin.design.servo_time_s,
+        hold_s=twin.design.servo_hold_s,
+    )
+    report = stability(setting, diameter_m=twin.robot.diameter_m)
     typer.echo("\n".join(stability_lines(report)))
 
 

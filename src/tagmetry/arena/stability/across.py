@@ -48,15 +48,18 @@ class _Seen:
 
 @dataclass(frozen=True)
 class Across:
-    """One image period; the state is offset, heading, turn rate, commands sent, own turn rates, the
-    last command, and the leader's offset, heading and turn rate."""  # noqa: D205, D209
+    """One image period.
+
+    The state is the robot's (offset, heading, turn rate), commands sent, own turn rates, the last
+    command, and the leader's offset, heading and turn rate.
+    """
 
     setting: FollowingSetting
 
     @property
     def size(self) -> int:
         """Length of the state."""
-        return 3 + self._acting.whole + 1 + self._told.whole + 1 + 4
+        return len(self._wheels.push) + self._acting.whole + 1 + self._told.whole + 1 + 4
 
     @property
     def outside(self) -> int:
@@ -65,14 +68,14 @@ class Across:
 
     def __call__(self, state: Array, command: Array, outside: Array) -> tuple[Array, Array]:
         """Return the next state, and the controller's command."""
-        ends = np.cumsum([3, self._acting.whole + 1, self._told.whole + 1])
+        ends = np.cumsum([len(self._wheels.push), self._acting.whole + 1, self._told.whole + 1])
         robot, sent, turns, (last, *known) = np.split(state, ends)
         turns = self._own_turns(turns, last)
         seen = self._sighting(robot, outside, turns)
         leader = self._leader(known, turns[0], seen)
         now = leader.carried(self.setting.speed_mps, self.setting.delay_s)
         wish = self._turned(now)
-        robot, sent = driven(self._wheels(), robot, sent, command, self._acting)
+        robot, sent = driven(self._wheels, robot, sent, command, self._acting)
         known = [leader.offset, leader.heading, leader.turn_rate]
         return np.concatenate([robot, sent, turns, [wish, *known]]), wish
 
@@ -84,10 +87,10 @@ class Across:
     def _told(self) -> Lateness:
         return Lateness.of(self.setting.delay_s, self.setting.image_s)
 
+    @property
     def _wheels(self) -> Wheels:
-        rate, speed = 1 / self.setting.motor_s, self.setting.speed_mps
-        drift = np.array([[0.0, speed, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -rate]])
-        return Wheels(drift, np.array([0.0, 0.0, rate]))
+        moved = np.array([[0.0, self.setting.speed_mps, 0.0], [0.0, 0.0, 1.0]])
+        return Wheels.of(moved, self.setting.motor_s, self.setting.hold_s)
 
     def _own_turns(self, turns: Array, last: Array) -> Array:
         left = np.exp(-self.setting.image_s / self.setting.told_motor_s)

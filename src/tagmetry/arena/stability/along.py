@@ -23,14 +23,14 @@ LEADER, LENGTH = 0, 1  # of what comes from outside: the leader's place, the spr
 
 @dataclass(frozen=True)
 class Along:
-    """One image period; the state is place and speed, commands sent, own motions, z, u and V."""
+    """One image period; the state is the robot's, commands sent, own motions, z, u and V."""
 
     setting: FollowingSetting
 
     @property
     def size(self) -> int:
         """Length of the state."""
-        return 2 + self._acting.whole + 1 + self._told.whole + 1 + 3
+        return len(self._wheels.push) + self._acting.whole + 1 + self._told.whole + 1 + 3
 
     @property
     def outside(self) -> int:
@@ -39,13 +39,13 @@ class Along:
 
     def __call__(self, state: Array, command: Array, outside: Array) -> tuple[Array, Array]:
         """Return the next state, and the controller's command."""
-        ends = np.cumsum([2, self._acting.whole + 1, self._told.whole + 1])
+        ends = np.cumsum([len(self._wheels.push), self._acting.whole + 1, self._told.whole + 1])
         robot, sent, motions, (place, speed, wish) = np.split(state, ends)
         motions = self._own_motions(motions, wish)
         seen = outside[LEADER] - robot[PLACE] - self._driven_since(motions)
         place, speed = self._leader(place, speed, motions[0], seen)
         wish = self._pulled(place, speed, wish, outside[LENGTH])
-        robot, sent = driven(self._wheels(), robot, sent, command, self._acting)
+        robot, sent = driven(self._wheels, robot, sent, command, self._acting)
         return np.concatenate([robot, sent, motions, [place, speed, wish]]), wish
 
     @property
@@ -56,9 +56,9 @@ class Along:
     def _told(self) -> Lateness:
         return Lateness.of(self.setting.delay_s, self.setting.image_s)
 
+    @property
     def _wheels(self) -> Wheels:
-        rate = 1 / self.setting.motor_s
-        return Wheels(np.array([[0.0, 1.0], [0.0, -rate]]), np.array([0.0, rate]))
+        return Wheels.of(np.array([[0.0, 1.0]]), self.setting.motor_s, self.setting.hold_s)
 
     def _own_motions(self, motions: Array, wish: Array) -> Array:
         left = np.exp(-self.setting.image_s / self.setting.told_motor_s)

@@ -1,13 +1,11 @@
-"""A drive of the real controller behind a perfect leader, on wheels that only lag.
+"""A drive of the real controller behind a perfect leader, on wheels that know no slip.
 
-Straight lines and turns, start and stop, in the plane, without slip and noise: what the
-linear loops leave out.
+Straight lines and turns, start and stop, in the plane, without noise: what the linear loops
+leave out.
 """
 
 from collections import deque
-from collections.abc import Iterator
-from dataclasses import dataclass
-from math import ceil, exp
+from math import ceil
 
 import numpy as np
 
@@ -17,7 +15,7 @@ from tagmetry.arena.neighbours import Neighbour
 from tagmetry.arena.own_motion import OwnMotion
 from tagmetry.arena.place import Place
 from tagmetry.arena.stability.setting import FollowingSetting
-from tagmetry.arena.stability.wheels import Lateness
+from tagmetry.arena.stability.wheels import Held, Lateness, Wheels
 from tagmetry.geometry import Array
 
 _LEADER, _FOLLOWER = 0, 1
@@ -28,49 +26,45 @@ _SETTLE_S = 2.0
 def ideal_gaps_m(setting: FollowingSetting, course: Course) -> Array:
     """Return the distances between leader and follower, centre to centre, one for each image."""
     end_s = course.end_s + _SETTLE_S
-    robot = _Robot(setting, course.start.moved(-setting.spring.length_m, 0.0))
-    mind = _Mind(setting)
     late = Lateness.of(setting.delay_s + setting.untold_s, setting.image_s)
+    robot = _Robot(setting, course.start.moved(-setting.spring.length_m, 0.0))
+    before, after = (robot.part(part_s) for part_s in (late.rest_s, late.image_s - late.rest_s))
+    mind = _Mind(setting)
     sent = deque([STILL] * (late.whole + 2), maxlen=late.whole + 2)
     gaps_m = []
     for n in range(int(end_s / setting.image_s)):
         leader = course.at(n * setting.image_s).place
         gaps_m.append(leader.distance_m(robot.place))
         sent.append(mind.command(n * setting.image_s, robot.place, leader))
-        robot.drive(sent[0], late.rest_s)
-        robot.drive(sent[1], late.image_s - late.rest_s)
+        robot.drive(sent[0], before)
+        robot.drive(sent[1], after)
     return np.array(gaps_m)
 
 
-@dataclass
 class _Robot:
-    """A robot on two wheels that lag.
+    """A robot on two wheels with servos.
 
     Attributes:
-        setting: How much.
         place: Where it is.
-        twist: How it moves.
     """
 
-    setting: FollowingSetting
-    place: Place
-    twist: Twist = STILL
+    def __init__(self, setting: FollowingSetting, place: Place) -> None:
+        self.place = place
+        self._wheels = Wheels.of(np.array([[0.0, 1.0]]), setting.motor_s, setting.hold_s)
+        self._state = np.zeros((len(self._wheels.push), 2))  # way and turn, and their rates
 
-    def drive(self, wanted: Twist, duration_s: float) -> None:
+    def part(self, duration_s: float) -> list[Held]:
+        """Return the small steps that a time is made of."""
+        count = ceil(duration_s / _STEP_S - 1e-9)
+        return [self._wheels.held(duration_s / count)] * count if count else []
+
+    def drive(self, wanted: Twist, steps: list[Held]) -> None:
         """Let it follow a command for a while."""
-        for step_s in _steps(duration_s):
-            left = exp(-step_s / self.setting.motor_s)
-            lagging_s = self.setting.motor_s * (1 - left)
-            old = self.twist
-            self.place = self.place.moved(
-                wanted.speed_mps * step_s + (old.speed_mps - wanted.speed_mps) * lagging_s,
-                wanted.turn_rate_radps * step_s
-                + (old.turn_rate_radps - wanted.turn_rate_radps) * lagging_s,
-            )
-            self.twist = Twist(
-                wanted.speed_mps + left * (old.speed_mps - wanted.speed_mps),
-                wanted.turn_rate_radps + left * (old.turn_rate_radps - wanted.turn_rate_radps),
-            )
+        command = np.array([wanted.speed_mps, wanted.turn_rate_radps])
+        for step in steps:
+            self._state = step.after(self._state, command)
+            self.place = self.place.moved(*self._state[0].tolist())
+            self._state[0] = 0.0
 
 
 class _Mind:
@@ -93,8 +87,3 @@ class _Mind:
         )
         self._own.command(twist, acts_s)
         return twist
-
-
-def _steps(duration_s: float) -> Iterator[float]:
-    count = ceil(duration_s / _STEP_S - 1e-9)
-    return iter([duration_s / count] * count if count else [])

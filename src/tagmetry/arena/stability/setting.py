@@ -28,6 +28,7 @@ class FollowingSetting:
         untold_s: What the true delay is longer.
         image_s: From image to image.
         motor_s: Time constant of its wheels.
+        hold_s: Of their servo's integral against drag; None where it has none.
         told_motor_s: What the controller takes it for.
         place_share: Of a sighting's surprise that goes to the leader's place, alpha.
         motion_share: That goes to the leader's speed and turn rate, beta.
@@ -39,6 +40,7 @@ class FollowingSetting:
     untold_s: float = 0.0
     image_s: float = 1 / 30
     motor_s: float = 0.05
+    hold_s: float | None = None
     told_motor_s: float = 0.05
     place_share: float = 0.5
     motion_share: float = 0.25
@@ -48,6 +50,8 @@ class FollowingSetting:
         for name, (least, most) in _BOUNDS.items():
             if not least <= getattr(self, name) <= most:
                 raise InputError(f"{name} must be {least:g} to {most:g}, got {getattr(self, name)}")
+        if self.hold_s is not None and not 1e-3 <= self.hold_s <= 100:
+            raise InputError(f"hold_s must be 0.001 to 100, got {self.hold_s}")
         for name, value in vars(self.spring).items():
             if not 0 < value < 1000:
                 raise InputError(f"a spring's {name} must be above 0 and below 1000, got {value}")

@@ -12,6 +12,8 @@ from tagmetry.lab.experiment import Experiment
 from tagmetry.lab.rigs.swarm import TASKS, swarmed
 from tagmetry.lab.rows import SwarmPlace
 
+_DURATIONS_S = {"aggregate": 20.0, "disperse": 20.0, "formation": 40.0}  # its leader drives
+
 
 @dataclass(frozen=True)
 class Case:
@@ -34,8 +36,10 @@ def cases(quick: bool) -> tuple[Case, ...]:
     """Return tasks and numbers of robots."""
     if quick:
         return tuple(Case(task, 6, 12.0, 0) for task in TASKS)
-    few = [Case(task, 24, 40.0, repeat) for task in TASKS for repeat in (0, 1)]
-    return (*few, *(Case(task, 100, 40.0, 0) for task in TASKS))
+    runs = ((24, 0), (24, 1), (100, 0))
+    return tuple(
+        Case(task, robots, _DURATIONS_S[task], repeat) for robots, repeat in runs for task in TASKS
+    )
 
 
 def measure(case: Case, seed: int) -> Sequence[SwarmPlace]:

@@ -68,6 +68,11 @@ class RobotDesign:
         return self.mass_kg + 2 * self.wheel_mass_kg + turning_kg
 
     @property
+    def servo_hold_s(self) -> float:
+        """Time constant of its servos' integral, which holds the wheels against drag."""
+        return 4 * self.servo_time_s
+
+    @property
     def servo_gain_nms(self) -> float:
         """Torque of a wheel's servo per missing speed: each wheel moves half of the robot."""
         inertia_kgm2 = self.moved_mass_kg / 2 * self.drive.wheel_radius_m**2

@@ -183,7 +183,7 @@ class _Servo:
         self._stall_Nm = np.array([[design.stall_torque_nm] for design in designs])
         self._top_radps = np.array([[one.top_wheel_speed_radps] for one in self._drives])
         self._gain = np.array([[design.servo_gain_nms] for design in designs])
-        self._rate = np.array([[TIME_STEP_S / (4 * one.servo_time_s)] for one in designs])
+        self._rate = np.array([[TIME_STEP_S / one.servo_hold_s] for one in designs])
         self._wanted_radps = np.zeros((len(designs), 2))
         self._held_radps = np.zeros((len(designs), 2))
 
