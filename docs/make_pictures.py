@@ -30,7 +30,15 @@ def sheet() -> None:
     run(["print", "sheet", *options])
 
 
+def stability() -> None:
+    """Draw a follower's distances and margins against the delay, for the twin's robots."""
+    twins = ["--untold-ms", "8", "--hold-ms", "200"]
+    options = ["--delay-ms", "100", *twins, "--picture", str(IMAGES / "stability.png")]
+    run(["arena", "stability", *options])
+
+
 if __name__ == "__main__":
     IMAGES.mkdir(exist_ok=True)
     overlay()
     sheet()
+    stability()

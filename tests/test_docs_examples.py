@@ -55,6 +55,8 @@ HELD = (  # where a chessboard is held before a webcam: metres, degrees about x 
 )
 WRITTEN = {
     "arena.sh": ("lab.world.yaml", "states.jsonl"),
+    "arena_stability.sh": ("stability.png",),
+    "arena_stability.sh": ("stability.png",),
     "arena_twin.sh": ("ways.png",),
     "bank.py": ("bank.yaml",),
     "calibrate.py": ("webcam.yaml",),
@@ -81,6 +83,8 @@ WRITTEN = {
 SAID = {
     "arena.sh": "camera at x",
     "arena_state.py": "robot 1 knows of [2]",
+    "arena_stability.sh": "of air left",
+    "arena_stability.sh": "of air left",
     "arena_twin.sh": "m driven, places within",
     "bank.py": "at focus 53: fx 1005.",
     "calibrate.py": "8 views leave projections uncertain",
@@ -110,6 +114,8 @@ SAID = {
 }
 AFTER = {"read_results.py": "detect.sh", "floor_positions.py": "detect_video.sh"}
 NEEDS = {
+    "arena_stability.sh": ["matplotlib"],
+    "arena_stability.sh": ["matplotlib"],
     "arena_twin.sh": ["matplotlib", "mujoco"],
     "twin_arena.py": ["mujoco"],
     "calibrate.sh": ["matplotlib"],
