@@ -15,8 +15,8 @@ PINNED := $(INSTALL) --require-hashes --only-binary=:all:
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
-demo: $(VENV)/package.stamp ## Print, render, detect, measure; with IMAGE=photo.jpg: your own picture
-	@$(BIN)/tagmetry demo $(if $(IMAGE),--image "$(IMAGE)")
+demo: $(VENV)/package.stamp ## Measure once, then robots in the browser; IMAGE=photo.jpg: your picture
+	@$(BIN)/tagmetry demo $(if $(IMAGE),--image "$(IMAGE)",--live $(if $(HEADLESS),--headless))
 
 live: $(VENV)/package.stamp ## Open the live page: twelve simulated robots in a browser; end it with Ctrl-C
 	@$(BIN)/tagmetry live

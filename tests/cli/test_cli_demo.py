@@ -3,6 +3,8 @@
 import json
 import os
 import re
+import time
+import webbrowser
 from pathlib import Path
 
 import cv2
@@ -10,6 +12,8 @@ import numpy as np
 import pytest
 from cli_command import Scene
 
+from tagmetry.cli import demo as demo_module
+from tagmetry.cli import display as display_module
 from tagmetry.cli.main import run
 from tagmetry.files import load_camera
 from tagmetry.pipeline.demonstration import demonstrate
@@ -53,6 +57,55 @@ def test_writes_what_it_says_twice(tmp_path: Path, capsys: pytest.CaptureFixture
     assert cv2.imread(str(folder / "overlay.png")).shape == (720, 1280, 3)
     assert (folder / "sheet.pdf").read_bytes().startswith(b"%PDF")
     assert len((folder / "markers.csv").read_text().splitlines()) == 8
+
+
+@pytest.mark.parametrize("has_browser", [True, False])
+def test_then_films_robots_where_there_is_no_screen(
+    has_browser: bool,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    av = pytest.importorskip("av", reason="a video needs the part `video`")
+    pytest.importorskip("mujoco", reason="simulated robots need the part `robots`")
+    monkeypatch.setattr(demo_module, "_FILM_S", 0.5)
+    monkeypatch.setattr(display_module, "has_browser", lambda: has_browser)
+    wish = ["--headless"] if has_browser else []
+    assert run(["demo", "--live", *wish, "--out", str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert "7 markers measured in a rendered picture" in out
+    assert "places within" in out
+    assert out.splitlines()[-1] == f"wrote {tmp_path / 'arena.mp4'}"
+    with av.open(str(tmp_path / "arena.mp4")) as video:
+        assert sum(1 for _ in video.decode(video=0)) == 5
+
+
+def test_then_serves_robots_where_there_is_a_screen(
+    tmp_path: Path, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("fastapi", reason="the page needs the part `live`")
+    pytest.importorskip("mujoco", reason="simulated robots need the part `robots`")
+    opened: list[str] = []
+    monkeypatch.setattr(display_module, "has_browser", lambda: True)
+    monkeypatch.setattr(webbrowser, "open", opened.append)
+    monkeypatch.setattr("tagmetry.live.opening.LivePage.serve", lambda _: time.sleep(1.5))
+    assert run(["demo", "--live", "--out", str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert opened
+    assert f"The live page is at {opened[0]} until" in out
+
+
+@pytest.mark.parametrize(
+    ("screen", "ci", "can_show"), [("", "", False), (":0", "", True), (":0", "true", False)]
+)
+def test_a_browser_needs_a_screen_and_a_person(
+    screen: str, ci: str, can_show: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.platform", "linux")
+    for name, value in (("DISPLAY", screen), ("WAYLAND_DISPLAY", ""), ("CI", ci)):
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(webbrowser, "get", lambda: None)
+    assert display_module.has_browser() is can_show
 
 
 def test_a_folder_that_is_a_file_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:

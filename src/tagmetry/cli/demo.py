@@ -1,4 +1,4 @@
-"""`tagmetry demo`: the whole way once, on a rendered scene or on your picture."""
+"""`tagmetry demo`: the whole way once, on a rendered scene or on your picture; then an arena."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -9,6 +9,8 @@ from tagmetry.cli.options import CameraFile, Size, measurement
 
 if TYPE_CHECKING:
     from tagmetry.pipeline.demonstration import Comparison, Demonstration
+
+_SCENARIO, _ROBOTS, _FILM_S = "leader_follower", 12, 5.0
 
 
 def demo(
@@ -24,6 +26,16 @@ def demo(
     camera: CameraFile = None,
     out: Annotated[Path, typer.Option(help="Folder for what is written.")] = Path("demo-out"),
     seed: Annotated[int, typer.Option(min=0, help="Seed of the rendered picture's noise.")] = 0,
+    live: Annotated[
+        bool,
+        typer.Option(help="Then open the live page with twelve simulated robots, until Ctrl-C."),
+    ] = False,
+    headless: Annotated[
+        bool,
+        typer.Option(
+            help="With --live: a video and a summary instead, as where there is no screen."
+        ),
+    ] = False,
 ) -> None:
     """Print, render, detect, measure and compare; or do it on your own picture."""
     if image is not None:
@@ -34,6 +46,25 @@ def demo(
     from tagmetry.pipeline.demonstration import demonstrate
 
     _tell(demonstrate(out, np.random.default_rng(seed)))
+    if live:
+        _show_arena(out, headless=headless)
+
+
+def _show_arena(out: Path, *, headless: bool) -> None:
+    """Let twelve robots drive, leaders and followers: on a page, or in a video."""
+    from tagmetry.cli.display import has_browser
+    from tagmetry.cli.live_page import require_server, serve, write_film
+
+    if headless or not has_browser():
+        typer.echo("\nTwelve simulated robots, leaders and followers, in a video:\n")
+        write_film(out / "arena.mp4", _SCENARIO, _ROBOTS, _FILM_S)
+        return
+    require_server()
+    from tagmetry.live.opening import opened_page
+
+    typer.echo("\nTwelve simulated robots, leaders and followers, in your browser:\n")
+    with opened_page(_SCENARIO, _ROBOTS, "127.0.0.1", 0, out / "recordings") as page:
+        serve(page, browser=True)
 
 
 def _on_picture(

@@ -1,12 +1,11 @@
 """`tagmetry live`: the arena in a browser; or, without one, as a short video and a summary."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
-if TYPE_CHECKING:
-    from tagmetry.live.opening import LivePage
+from tagmetry.cli.live_page import require_server, serve, write_film
 
 
 def live(  # noqa: PLR0913 (each argument is an option)
@@ -46,9 +45,9 @@ def live(  # noqa: PLR0913 (each argument is an option)
 ) -> None:
     """Show simulated robots on a page in the browser: look, command, record."""
     if headless is not None:
-        _film(headless, scenario, robots, seconds)
+        write_film(headless, scenario, robots, seconds)
         return
-    _require_server()
+    require_server()
     from tagmetry.live.opening import opened_page
 
     with opened_page(
@@ -61,40 +60,4 @@ def live(  # noqa: PLR0913 (each argument is an option)
         pictures=pictures,
         eye=eye,
     ) as page:
-        _tell(page)
-        if browser:
-            _open_soon(page.url)
-        page.serve()
-
-
-def _film(path: Path, scenario: str, robots: int, seconds: float) -> None:
-    from tagmetry.cli.arena_twin import tell_summary
-    from tagmetry.live.film import film
-
-    tell_summary(*film(path, scenario, robots, seconds))
-    typer.echo(f"wrote {path}")
-
-
-def _require_server() -> None:
-    from importlib.util import find_spec
-
-    from tagmetry.errors import MissingExtraError
-
-    if not all(map(find_spec, ("fastapi", "uvicorn", "websockets"))):
-        raise MissingExtraError("the live page", "live")
-
-
-def _tell(page: "LivePage") -> None:
-    typer.echo(f"The live page is at {page.url} until you press Ctrl-C.")
-    typer.echo("Looking is free on this computer. To command, paste this token on the page:")
-    typer.echo(page.token)
-
-
-def _open_soon(url: str) -> None:
-    """Open the browser when the server is likely to listen; the page tries again by itself."""
-    import threading
-    import webbrowser
-
-    timer = threading.Timer(1.0, webbrowser.open, (url,))
-    timer.daemon = True
-    timer.start()
+        serve(page, browser=browser)
