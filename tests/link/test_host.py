@@ -187,3 +187,17 @@ def test_a_client_without_a_host_stands_still_and_goes_on_asking() -> None:
             assert robot.step(0.001) == []
         assert not robot.may_move
         assert not robot.send(Odometry(1, 0, 0, 0))
+
+
+def test_a_program_that_never_rests_from_sending_hears_all_the_same() -> None:
+    with Host({3: KEY}, port=0) as host, RobotClient(3, KEY, port=host.address[1]) as robot:
+        step_until(robot, lambda: host.send(3, Command()))
+        host._is_closing.set()
+        host._thread.join()  # the link's own thread gets no turn any more
+        host.take()
+        for number in range(10):
+            assert robot.send(Odometry(number, 0.0, 0.0, 0.0))
+        for _ in range(8):
+            host.send(3, Command())
+        heard = [one.message.measured_us for one in host.take()]
+    assert heard == list(range(10))

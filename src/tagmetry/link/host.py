@@ -29,6 +29,7 @@ OnPacket = Callable[[Packet], None]
 
 _KEPT = 10_000  # messages that nobody takes
 _MOST_AT_ONCE = 256
+_SENT_AT_ONCE = 4  # before the sender hears what has come meanwhile
 _GATHER_S = 0.001  # where packets come thick, a few are heard at a time: threads change less often
 _PATIENCE_US = 200_000  # with a program that neither sends nor pulses
 
@@ -71,6 +72,8 @@ class Host:
         self._on_packet = on_packet
         self._received: deque[Received] = deque(maxlen=_KEPT)
         self._lock = threading.RLock()
+        self._hearer = threading.Lock()  # one thread hears at a time: in the packets' order
+        self._sent_count = 0
         self._is_closing = threading.Event()
         self._pulse_us = now_us()
         self._thread = threading.Thread(target=self._run, name="link", daemon=True)
@@ -120,6 +123,7 @@ class Host:
         self.pulse()
         if isinstance(message, Command) and self.is_stopped:
             return False
+        self._hear_between()
         return self._send(peer, message)
 
     def pulse(self) -> None:
@@ -162,13 +166,26 @@ class Host:
         with selectors.DefaultSelector() as selector:
             selector.register(self._socket, selectors.EVENT_READ)
             while not self._is_closing.is_set():
-                if selector.select(max(next_us - now_us(), 0) / 1e6) and self._hear_some() > 1:
+                if selector.select(max(next_us - now_us(), 0) / 1e6) and self._hear_in_turn() > 1:
                     time.sleep(_GATHER_S)
                 if now_us() >= next_us:
                     next_us = now_us() + BEAT_US // 2
                     self._beat()
                     with self._lock:
                         self._emergency.count_down()
+
+    def _hear_between(self) -> None:
+        """Hear from the program's thread now and then: while it sends, the link's waits for it."""
+        self._sent_count += 1
+        if self._sent_count % _SENT_AT_ONCE == 0 and self._hearer.acquire(blocking=False):
+            try:
+                self._hear_some()
+            finally:
+                self._hearer.release()
+
+    def _hear_in_turn(self) -> int:
+        with self._hearer:
+            return self._hear_some()
 
     def _hear_some(self) -> int:
         """Hear what has arrived, but leave time for the beats in a flood; return how many."""
