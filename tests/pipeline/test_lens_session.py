@@ -4,14 +4,12 @@ import numpy as np
 import pytest
 from webcam_rig import moving, still, task
 
-from tagmetry.camera.controls import ControlRefusedError, ControlStuckError
 from tagmetry.errors import InputError
 from tagmetry.lens import Lag, seed_scan
 from tagmetry.lens.measured import turn_about_y_deg
 from tagmetry.pipeline.lens import measure_marker, measure_markers
 from tagmetry.twin.camera import (
     BeforeCamera,
-    Faults,
     TwinCamera,
     facing_camera,
     markers_before_camera,
@@ -80,16 +78,6 @@ def test_nothing_to_be_found_ends_with_the_reason() -> None:
     assert "no marker in 12 images" in last.reason
 
 
-def test_two_equal_ids_are_named_and_not_measured() -> None:
-    scene = markers_before_camera(
-        *(BeforeCamera(Still(facing_camera(0.3, 20.0, x_m))) for x_m in (-0.015, 0.015))
-    )
-    *_, last = measure_marker(
-        TwinCamera(scene, webcam(), quick=True), task(most_images=8, marker_id=7)
-    )
-    assert last.found is None
-
-
 @pytest.mark.slow
 def test_several_markers_are_measured_one_after_the_other() -> None:
     places = {7: (0.1, -0.01), 9: (0.6, 0.05)}
@@ -102,28 +90,6 @@ def test_several_markers_are_measured_one_after_the_other() -> None:
     steps = measure_markers(TwinCamera(scene, webcam(), quick=True), task(), (7, 9))
     final = {step.found.detection.id: step.found for step in steps if step.is_final}
     assert {i: round(found.depth_m, 2) for i, found in final.items()} == {7: 0.1, 9: 0.6}
-
-
-def test_a_zoom_that_sticks_is_named() -> None:
-    with pytest.raises(ControlStuckError, match=r"zoom: from .* the marker grew 1.0"):
-        list(measure_marker(still(0.1, faults=Faults(stuck=frozenset({"zoom"}))), task()))
-
-
-def test_a_focus_that_sticks_is_named() -> None:
-    with pytest.raises(ControlStuckError, match=r"focus: at .* blurred by"):
-        list(measure_marker(still(0.1, faults=Faults(stuck=frozenset({"focus"}))), task()))
-
-
-def test_a_control_that_is_refused_is_named() -> None:
-    with pytest.raises(ControlRefusedError, match="focus"):
-        list(measure_marker(still(0.1, faults=Faults(refused=frozenset({"focus"}))), task()))
-
-
-def test_a_control_that_is_late_costs_images_but_no_accuracy() -> None:
-    faults = Faults(late_images={"zoom": 3, "focus": 3})
-    *_, last = measure_marker(still(0.1, faults=faults), task())
-    assert last.is_final
-    assert last.found.depth_m == pytest.approx(0.1, rel=3e-3)
 
 
 def test_the_paper_s_scan_finds_it_in_eleven_images() -> None:

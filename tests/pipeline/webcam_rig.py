@@ -22,7 +22,8 @@ DETECTOR = Detector(["tag36h11"])
 
 
 def task(**changes) -> LensTask:
-    return LensTask(webcam_lens(30.0), DETECTOR, MARKER, **changes)
+    known = {"lens": webcam_lens(30.0), **changes}
+    return LensTask(finder=DETECTOR, marker=MARKER, **known)
 
 
 def camera(path: Path, faults: Faults | None = None, seed: int = 0) -> TwinCamera:

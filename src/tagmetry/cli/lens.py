@@ -20,42 +20,35 @@ MarkerSize = Annotated[str, typer.Option("--size", help="Side of the black squar
 MarkerId = Annotated[int | None, typer.Option("--id", help="Only this marker.")]
 Family = Annotated[str, typer.Option(help="Family of the marker, or a dictionary file.")]
 Out = Annotated[Path | None, typer.Option(help="File of JSON lines, one for each image.")]
+Images = Annotated[int | None, typer.Option(min=1, help="End after so many images.")]
 
 
-@app.command()
-def scan(
-    *,
-    camera: Camera,
-    lens: LensPath,
-    size: MarkerSize,
-    marker_id: MarkerId = None,
-    family: Family = "tag36h11",
-    json_: Json = False,
-    out: Out = None,
-) -> None:
-    """Find a marker at an unknown distance and measure it as well as the camera can."""
-    from tagmetry.cli.lens_run import Wanted, run
+def _measures(name: str, told: str, *, tracks: bool) -> None:
+    """Add a command that finds and measures a marker."""
 
-    run(Wanted(camera, lens, size, marker_id, family), out, json_=json_)
+    @app.command(name, help=told)
+    def measure(
+        *,
+        camera: Camera,
+        lens: LensPath,
+        size: MarkerSize,
+        marker_id: MarkerId = None,
+        family: Family = "tag36h11",
+        json_: Json = False,
+        out: Out = None,
+        images: Images = None,
+    ) -> None:
+        from tagmetry.cli.lens_run import Wanted, run
+
+        run(Wanted(camera, lens, size, marker_id, family, tracks, images), out, json_=json_)
 
 
-@app.command()
-def track(
-    *,
-    camera: Camera,
-    lens: LensPath,
-    size: MarkerSize,
-    marker_id: MarkerId = None,
-    family: Family = "tag36h11",
-    json_: Json = False,
-    out: Out = None,
-    images: Annotated[int | None, typer.Option(min=1, help="End after so many images.")] = None,
-) -> None:
-    """Find a marker, then follow it with zoom and focus until Ctrl-C."""
-    from tagmetry.cli.lens_run import Wanted, run
-
-    wanted = Wanted(camera, lens, size, marker_id, family, tracks=True, images=images)
-    run(wanted, out, json_=json_)
+_measures(
+    "scan",
+    "Find a marker at an unknown distance and measure it as well as the camera can.",
+    tracks=False,
+)
+_measures("track", "Find a marker, then follow it with zoom and focus until Ctrl-C.", tracks=True)
 
 
 @app.command()

@@ -18,6 +18,7 @@ from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.lens import LensSetting, Measured, SeedRule, ZoomLens, seed_scan
 from tagmetry.pipeline.lens import Drive, Finder, LensStep, LensTask, measure_marker
 from tagmetry.pipeline.lens.twin import webcam_lens
+from tagmetry.sources.controls import by_hand
 from tagmetry.twin.camera import TwinCamera
 
 By = Literal["position", "posture"]
@@ -85,7 +86,11 @@ def our_run(camera: TwinCamera, task: LensTask) -> Iterator[LensStep]:
 
 def paper_run(camera: TwinCamera, task: LensTask, by: By) -> Iterator[LensStep]:
     """Give the steps of the paper's system: its scan, then its iteration."""
-    drive = Drive(camera)
+    with by_hand(camera.controls):
+        yield from _paper_steps(Drive(camera), task, by)
+
+
+def _paper_steps(drive: Drive, task: LensTask, by: By) -> Iterator[LensStep]:
     found: Measured | None = None
     for setting in seed_scan(task.lens):
         drive.go(setting)

@@ -7,11 +7,19 @@ import numpy as np
 
 from tagmetry.calibrate.view import BoardView
 from tagmetry.calibrate.views_to_camera import calibrate
-from tagmetry.camera import BankNode, Camera, CameraBank, ControlledSource, Image, restored
+from tagmetry.camera import (
+    BankNode,
+    Camera,
+    CameraBank,
+    ControlledSource,
+    Image,
+    VerifiedControls,
+)
 from tagmetry.camera.controls import Control
 from tagmetry.errors import InputError
 from tagmetry.lens import Lag, LensSetting
 from tagmetry.pipeline.lens.drive import Drive
+from tagmetry.sources.controls import by_hand
 
 Views = Callable[[Iterator[Image]], Sequence[BoardView]]
 """Takes images until there are views enough, as a guided calibration does."""
@@ -70,7 +78,7 @@ def calibrate_bank(
         name: Of the camera.
         lag: How late its controls are.
     """
-    with restored(source.controls):
+    with by_hand(VerifiedControls(source.controls)):
         drive = Drive(source, lag)
         zoom = drive.controls.available["zoom"].least
         todo = missing_foci(bank, drive.controls.available["focus"], step)

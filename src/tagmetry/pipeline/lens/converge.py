@@ -17,34 +17,40 @@ from tagmetry.lens import (
     LensSetting,
     Measured,
     Whereabouts,
-    better_exposure_s,
-    marker_levels,
     next_setting,
     together,
 )
 from tagmetry.pipeline.lens.drive import Drive
-from tagmetry.pipeline.lens.evidence import disobedience, shows_zoom, telling_zoom
+from tagmetry.pipeline.lens.evidence import disobedience, jumps, shows_zoom, telling_zoom, tells
+from tagmetry.pipeline.lens.exposing import exposes
 from tagmetry.pipeline.lens.step import LensStep
 from tagmetry.pipeline.lens.task import LensTask
 
 _AGREE = 27.9  # chi-squared with 3 degrees of freedom, passed once in 250,000 pairs
 _MOST_LATE = 10  # images beyond the lag that a control may take to show
 _MOST_MISSES = 4
+_HARDLY_SEEN = 60.0  # grey values between black and white, below which exposing cannot wait
 
 
-def converge(task: LensTask, drive: Drive, first: Measured) -> Iterator[LensStep]:
+def converge(
+    task: LensTask, drive: Drive, first: LensStep, *, keeps_zoom: bool = False
+) -> Iterator[LensStep]:
     """Give a step for each image until the measurement is final, or the marker is lost.
 
     Args:
         task: What is measured.
         drive: The camera.
-        first: Where the marker was seen, however blurred.
+        first: In which the marker was seen, however blurred.
+        keeps_zoom: Go to no less zoom than it was seen at: where it was lost with less before.
 
     Raises:
         ControlStuckError: The images do not show what was commanded.
     """
-    state = _State(task, drive, first)
-    drive.go(state.wanted(first))
+    if first.found is None:
+        return
+    state = _State(task, drive, first.found, first.setting.zoom_percent if keeps_zoom else 0.0)
+    exposes(task, drive, first, least_contrast=_HARDLY_SEEN)
+    drive.go(state.wanted(first.found))
     for left in reversed(range(task.most_images)):
         step = state.judged(task.look(drive.take(), "iterate"))
         if left == 0 and not step.is_final:
@@ -59,8 +65,12 @@ def converge(task: LensTask, drive: Drive, first: Measured) -> Iterator[LensStep
 class _State:
     """What the iteration remembers from image to image."""
 
-    def __init__(self, task: LensTask, drive: Drive, first: Measured) -> None:
-        self._task, self._drive, self._first = task, drive, first
+    def __init__(
+        self, task: LensTask, drive: Drive, first: Measured, least_zoom_percent: float
+    ) -> None:
+        self._task, self._drive, self._least_zoom_percent = task, drive, least_zoom_percent
+        self._first: Measured | None = first
+        self._newest: Measured | None = None  # the last one that should be settled
         self._elsewhere: Measured | None = None  # the last one at another setting
         self._last: Measured | None = None  # the last one at the present setting
         self._late = 0
@@ -70,7 +80,10 @@ class _State:
     def wanted(self, found: Measured) -> LensSetting:
         """Return the setting that is best for where it was seen."""
         at = Whereabouts(np.asarray(found.T_camera_marker.translation), found.tilt_rad)
-        return next_setting(self._task.lens, self._task.marker, at, self._drive.commanded)
+        lens = self._task.lens
+        best = next_setting(lens, self._task.marker, at, self._drive.commanded)
+        zoom_percent = max(best.zoom_percent, self._least_zoom_percent)
+        return replace(best, zoom_percent=lens.zoom.nearest(zoom_percent))
 
     def judged(self, step: LensStep) -> LensStep:
         """Return the step with what it means, and command what follows from it."""
@@ -78,27 +91,50 @@ class _State:
             self.misses += 1
             return step
         self.misses = 0
-        if not step.is_settled or self._is_late(step.found) or self._exposes(step):
+        if not step.is_settled or not self._is_believed(step.found) or self._exposes(step):
             return step
         wanted = self.wanted(step.found)
         if wanted != self._drive.commanded:
-            self._elsewhere, self._last = step.found, None
-            self._drive.go(wanted)
+            self._go(self._telling(wanted, step.found), step.found)
             return step
         before, self._last = self._last, step.found
         if before is None or not agree(before, step.found):
             return step
         if not self._drive.zoom_is_proven:
-            self._elsewhere, self._last = step.found, None
-            self._drive.go(telling_zoom(self._task.lens, step.found))
+            self._go(telling_zoom(self._task.lens, step.found), step.found)
             return step
         both = together(before, step.found, self._task.lens, self._task.marker)
         return replace(step, found=both, is_final=True, reason=self._why_final(both))
+
+    def _go(self, setting: LensSetting, found: Measured) -> None:
+        self._elsewhere, self._last = found, None
+        self._drive.go(setting)
+
+    def _telling(self, wanted: LensSetting, found: Measured) -> LensSetting:
+        """Return the setting, with a zoom that tells whether it shows as long as none has."""
+        if self._drive.zoom_is_proven or tells(found.setting, wanted):
+            return wanted
+        return replace(wanted, zoom_percent=telling_zoom(self._task.lens, found).zoom_percent)
+
+    def _is_believed(self, found: Measured) -> bool:
+        return not self._is_surprised(found) and not self._is_late(found)
+
+    def _is_surprised(self, found: Measured) -> bool:
+        """Say whether an older command came through; then all are waited for, and none trusted."""
+        before, self._newest = self._newest, found
+        if before is None or not jumps(before, found):
+            return False
+        self._first = self._elsewhere = self._last = None
+        self._drive.zoom_is_proven = False
+        self._drive.later(_MOST_LATE)
+        self._drive.wait(_MOST_LATE)
+        return True
 
     def _is_late(self, found: Measured) -> bool:
         """Say whether the image does not show the commanded setting yet."""
         seen = disobedience(self._task.lens, self._elsewhere, found)
         if seen is None:
+            self._drive.later(self._late)
             self._late = 0
             self._prove_zoom(found)
             return False
@@ -115,19 +151,11 @@ class _State:
         self._drive.zoom_is_proven |= True in shown
 
     def _exposes(self, step: LensStep) -> bool:
-        """Correct the exposure once by the marker's own contrast; say whether that was done."""
-        control = self._drive.controls.available.get("exposure")
-        if self._is_exposed or control is None or step.found is None:
+        """Correct the exposure once, in an image that is settled; say whether that was done."""
+        if self._is_exposed:
             return False
         self._is_exposed = True
-        side_cells = self._task.marker.side_cells
-        levels = marker_levels(step.image.pixels, step.found.detection, side_cells)
-        present_s = self._drive.controls.read("exposure")
-        better_s = better_exposure_s(levels, present_s, control)
-        if better_s == present_s:
-            return False
-        self._drive.expose(better_s)
-        return True
+        return exposes(self._task, self._drive, step)
 
     def _why_final(self, found: Measured) -> str:
         reached = found.depth_sd_m <= self._task.wanted_share * found.depth_m

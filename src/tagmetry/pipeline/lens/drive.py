@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from tagmetry.camera import ControlledSource, Image, VerifiedControls
-from tagmetry.camera.controls import RULED_BY, ControlRefusedError, Controls, control_named
+from tagmetry.camera.controls import ControlRefusedError, Controls, control_named
 from tagmetry.errors import InputError
 from tagmetry.lens import Effect, Lag, LensSetting
 
@@ -35,21 +35,19 @@ class Drive:
     """
 
     def __init__(self, source: ControlledSource, lag: Lag | None = None) -> None:
-        """Switch the auto modes off and begin where the camera stands.
+        """Begin where the camera stands.
 
         Args:
-            source: The camera; use `restored(source.controls)` around, to leave it as it was.
+            source: The camera; use `sources.controls.by_hand` around, so that its auto modes are
+                off, and it is left as it was.
             lag: How late its controls are.
 
         Raises:
             InputError: It has no zoom or no focus.
-            ControlError: An auto mode cannot be switched off.
         """
         self._controls: Controls = VerifiedControls(source.controls)
         for name in ("zoom", "focus"):
             control_named(self._controls.available, name)
-        for name in sorted(set(RULED_BY.values()) & set(self._controls.available)):
-            self._controls.write(name, 0.0)
         self._images: Iterator[Image] = iter(source)
         now = LensSetting(self._controls.read("zoom"), self._controls.read("focus"))
         self._effect = Effect.settled(lag or Lag(), now)
@@ -92,13 +90,22 @@ class Drive:
             focus = self._controls.write("focus", setting.focus)
         self._effect = self._effect.command(LensSetting(zoom, focus))
 
+    def later(self, images: int) -> None:
+        """Learn that commands show so many images later than was thought."""
+        lag = replace(self.lag, images=self.lag.images + images)
+        self._effect = replace(self._effect, lag=lag)
+
+    def wait(self, images: int) -> None:
+        """Trust none of the next images, until older commands have come through."""
+        self._held_back = max(self._held_back, images)
+
     def expose(self, exposure_s: float) -> None:
         """Set the exposure, where the camera lets it be set."""
         if "exposure" not in self._controls.available:
             return
         with suppress(ControlRefusedError):
             self._controls.write("exposure", exposure_s)
-            self._held_back = max(self._held_back, self.lag.images + 1)
+            self.wait(self.lag.images + 1)
 
     def take(self) -> Taken:
         """Return the next image.

@@ -10,8 +10,9 @@ import numpy as np
 from tagmetry.lens import LensSetting, Measured, ZoomLens
 
 _TELLING_ZOOM = 1.15
-_PROVEN, _REFUTED = 0.25, 0.6  # how much of the growing may be missing
+_NEARLY_ALL, _NEARLY_NONE = 0.25, 0.4  # of the growing, by how much it may be missed
 _MORE = 1.33
+_JUMP = 1.25  # of a marker's size, from an image to the next
 _AROUND = 2.0  # of a marker's side, the room that it needs
 _BLURRED_PX = 2.0  # standard deviation beyond what the setting should leave
 
@@ -60,13 +61,25 @@ def shows_zoom(before: Measured, now: Measured) -> bool | None:
     """Say whether a marker grew with the zoom between two images; None where that is not clear.
 
     One that was blurred looked smaller than it is, so only growing about as expected is a proof.
+    One that grew otherwise, by another command that was late or by moving, tells nothing.
     """
-    ratio = now.setting.zoom_percent / before.setting.zoom_percent
-    if max(ratio, 1 / ratio) < _TELLING_ZOOM:
+    if not tells(before.setting, now.setting):
         return None
+    ratio = now.setting.zoom_percent / before.setting.zoom_percent
+    grown = float(np.log(now.detection.side_px / before.detection.side_px) / np.log(ratio))
+    return True if abs(grown - 1) < _NEARLY_ALL else False if abs(grown) < _NEARLY_NONE else None
+
+
+def jumps(before: Measured, now: Measured) -> bool:
+    """Say whether a marker is another size in the next image, though nothing was commanded."""
     grew = now.detection.side_px / before.detection.side_px
-    missing = abs(np.log(grew / ratio)) / abs(np.log(ratio))
-    return True if missing < _PROVEN else None if missing < _REFUTED else False
+    return before.setting == now.setting and max(grew, 1 / grew) > _JUMP
+
+
+def tells(before: LensSetting, now: LensSetting) -> bool:
+    """Say whether two zooms are so different that a marker's size tells them apart."""
+    ratio = now.zoom_percent / before.zoom_percent
+    return max(ratio, 1 / ratio) >= _TELLING_ZOOM
 
 
 def telling_zoom(lens: ZoomLens, now: Measured) -> LensSetting:

@@ -5,11 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.camera import ControlledSource, restored
+from tagmetry.camera import ControlledSource, VerifiedControls
 from tagmetry.errors import InputError
 from tagmetry.lens import FocusPeak, Lag, LensSetting, focus_peak, marker_blur_px
 from tagmetry.pipeline.lens.drive import Drive
 from tagmetry.pipeline.lens.task import Finder
+from tagmetry.sources.controls import by_hand
 
 _COARSE = 13
 _FINE = 9
@@ -46,7 +47,7 @@ def sweep_focus(
         zoom_percent: Held during the sweep.
         lag: How late the camera's controls are.
     """
-    with restored(source.controls):
+    with by_hand(VerifiedControls(source.controls)):
         drive = Drive(source, lag)
         control = drive.controls.available["focus"]
         coarse = [

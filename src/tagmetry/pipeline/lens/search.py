@@ -7,7 +7,7 @@ from tagmetry.camera.controls import Control
 from tagmetry.lens import LensSetting, bracket
 from tagmetry.pipeline.lens.drive import Drive
 from tagmetry.pipeline.lens.step import LensStep, Phase
-from tagmetry.pipeline.lens.task import LensTask
+from tagmetry.pipeline.lens.task import NO_MARKER, LensTask
 
 
 def search(
@@ -27,7 +27,7 @@ def search(
     Yields:
         Steps; the last one has the marker, or the reason why it was given up.
     """
-    count = 0
+    count, seen = 0, ""
     for number, exposure_s in enumerate(_exposures(drive)):
         if exposure_s is not None:
             drive.expose(exposure_s)
@@ -35,11 +35,13 @@ def search(
             drive.go(setting)
             for step in _until_there(task, drive, phase, stops=number > 0):
                 count += 1
+                seen = step.reason if step.reason != NO_MARKER else seen
                 is_last = step.found is None and count >= task.most_images
-                yield replace(step, reason=_given_up(count, plan)) if is_last else step
+                yield replace(step, reason=_given_up(count, plan, seen)) if is_last else step
                 if step.found is not None or is_last:
                     return
-    yield replace(task.look(drive.take(), phase), found=None, reason=_given_up(count + 1, plan))
+    reason = _given_up(count + 1, plan, seen)
+    yield replace(task.look(drive.take(), phase), found=None, reason=reason)
 
 
 def _until_there(task: LensTask, drive: Drive, phase: Phase, *, stops: bool) -> Iterator[LensStep]:
@@ -60,7 +62,10 @@ def _exposures(drive: Drive) -> Sequence[float | None]:
     return (None, *bracket(present_s, control))
 
 
-def _given_up(count: int, plan: Sequence[LensSetting]) -> str:
+def _given_up(count: int, plan: Sequence[LensSetting], seen: str) -> str:
+    """Return why a search ends: by what was seen and is no good, or else by where nothing is."""
+    if seen:
+        return f"{seen}; given up after {count} images"
     return (
         f"no marker in {count} images at {len(plan)} settings; it is out of view, too near, too "
         "far or too oblique, or of another family"

@@ -6,7 +6,7 @@ The camera is left as it was found, also after an error or an interrupt.
 from collections.abc import Generator, Iterator, Sequence
 from dataclasses import replace
 
-from tagmetry.camera import ControlledSource, restored
+from tagmetry.camera import ControlledSource, VerifiedControls
 from tagmetry.lens import Lag, LensSetting, quick_scan
 from tagmetry.pipeline.lens.average import average
 from tagmetry.pipeline.lens.converge import converge
@@ -15,6 +15,7 @@ from tagmetry.pipeline.lens.follow import follow
 from tagmetry.pipeline.lens.search import search
 from tagmetry.pipeline.lens.step import LensStep
 from tagmetry.pipeline.lens.task import LensTask
+from tagmetry.sources.controls import by_hand
 
 _ATTEMPTS = 5  # at a marker that is lost while the controls move
 
@@ -42,7 +43,7 @@ def measure_marker(
     Raises:
         ControlError: A control is refused, reads back another value, or sticks.
     """
-    with restored(source.controls):
+    with by_hand(VerifiedControls(source.controls)):
         drive = Drive(source, lag)
         if plan is None:
             plan = quick_scan(task.lens, task.marker, drive.commanded.focus)
@@ -56,7 +57,7 @@ def measure_markers(
 
     The camera begins each search where the last marker was, with what is near first.
     """
-    with restored(source.controls):
+    with by_hand(VerifiedControls(source.controls)):
         drive = Drive(source, lag)
         for marker_id in ids:
             plan = quick_scan(task.lens, task.marker, drive.commanded.focus)
@@ -69,10 +70,10 @@ def _measured(
 ) -> Iterator[LensStep]:
     """Search and converge, again where the marker was lost on the way."""
     last = yield from _passed_on(search(task, drive, plan))
-    for _ in range(_ATTEMPTS):
+    for attempt in range(_ATTEMPTS):
         if last.found is None:
             return
-        last = yield from _passed_on(converge(task, drive, last.found))
+        last = yield from _passed_on(converge(task, drive, last, keeps_zoom=attempt > 0))
         if last.found is not None:
             break
         last = yield from _passed_on(search(task, drive, plan, "reacquire"))

@@ -21,6 +21,7 @@ from tagmetry.lens import (
 from tagmetry.pipeline.lens.drive import Taken
 from tagmetry.pipeline.lens.step import LensStep, Phase
 
+NO_MARKER = "no marker"
 _WANTED_TURN_RAD = float(np.radians(0.3))
 
 
@@ -96,6 +97,6 @@ class LensTask:
 
 def _why_not(wanted: list[Detection]) -> str:
     if not wanted:
-        return "no marker"
+        return NO_MARKER
     twice = [one.id for one in wanted if one.is_duplicate]
     return f"id {twice[0]} is there more than once; which is meant cannot be told" if twice else ""
