@@ -160,8 +160,12 @@ def _least_confidence(family: MarkerFamily) -> float:
 def best_per_place(candidates: Sequence[Candidate]) -> list[Candidate]:
     """Return the best reading of each place, in an order that does not depend on chance."""
     best_first = sorted(candidates, key=lambda c: c.rank)
-    kept = [best_first[i] for i in _first_per_place([c.corners_px for c in best_first])]
-    return sorted(kept, key=lambda c: (c.match.family.name, c.match.id, *c.corners_px.mean(axis=0)))
+    corners_px = np.array([c.corners_px for c in best_first]).reshape(-1, 4, 2)
+    centres_px = corners_px.mean(axis=1)
+    first = np.flatnonzero(first_per_place(centres_px, sides_px(corners_px))).tolist()
+    names = [(best_first[i].match.family.name, best_first[i].match.id) for i in first]
+    order = sorted(zip(names, centres_px[first].tolist(), first, strict=True))
+    return [best_first[i] for _, _, i in order]
 
 
 def distinct_rejections(

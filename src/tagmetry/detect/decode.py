@@ -22,7 +22,6 @@ from tagmetry.markers.packed import Words, packed
 _OUTSIDE_CELLS = 0.35  # how far outside the border white is looked for
 _LEAST_WHITE = 0.1  # share of the bits; pictures have some white in them
 _LEAST_OUTLINE = 0.3  # share of the contrast by which it must
-_SHARPEN = 0.25  # share of the difference to each neighbour that is added
 _TAP_CELLS = 0.17  # how far from a cell's centre its four taps are
 
 
@@ -134,15 +133,17 @@ def has_outline(reading: Reading) -> bool:
 @cache
 def _spots(layout: Layout) -> Spots:
     """Return what the kernel looks at."""
-    (black, white), (to_dark, to_bright) = _places(layout), _planes(layout)
+    black, white = _places(layout)
+    cells = np.concatenate([_frame(layout), layout.bit_centres])
     return Spots(
         _TAP_CELLS / layout.side_cells,
         np.ascontiguousarray(black),
         np.ascontiguousarray(white),
         np.ascontiguousarray(layout.bit_centres, dtype=np.float64),
-        np.ascontiguousarray(to_dark.T),
-        np.ascontiguousarray(to_bright.T),
-        _sharpening(layout),
+        np.linalg.pinv(_plane_terms(black)),
+        np.linalg.pinv(_plane_terms(white)),
+        _plane_terms(cells),
+        _beside(layout),
         len(_frame(layout)),
         float(layout.side_cells),
         -1.0 if layout.white_border else 1.0,
@@ -174,22 +175,14 @@ def _outside(layout: Layout) -> Array:
     return np.concatenate([np.stack(pair, axis=1) for pair in pairs])
 
 
-@cache
-def _sharpening(layout: Layout) -> Array:
-    """Return the matrix (bits, frame + bits) that takes each bit farther from its neighbours."""
+def _beside(layout: Layout) -> IntArray:
+    """Return which cells, of frame and bits, touch each bit's sides, (bits, 4); else its own."""
     centres = np.concatenate([_frame(layout), layout.bit_centres]) * layout.side_cells
     apart = np.abs(layout.bit_centres[:, None] * layout.side_cells - centres).sum(axis=2)
-    beside = np.isclose(apart, 1.0)
-    own = np.isclose(apart, 0.0)
-    return np.asarray(own * (1 + _SHARPEN * beside.sum(axis=1))[:, None] - _SHARPEN * beside)
-
-
-@cache
-def _planes(layout: Layout) -> tuple[Array, Array]:
-    """Return what takes black and white (n, k) to planes through them at frame and bits, (k, m)."""
-    wanted = _plane_terms(np.concatenate([_frame(layout), layout.bit_centres]))
-    black, white = (np.linalg.pinv(_plane_terms(at)).T @ wanted.T for at in _places(layout))
-    return black, white
+    beside = np.tile(len(_frame(layout)) + np.arange(layout.bit_count)[:, None], (1, 4))
+    for bit, near in enumerate(np.isclose(apart, 1.0)):
+        beside[bit, : near.sum()] = np.flatnonzero(near)
+    return np.asarray(beside)
 
 
 def _plane_terms(at: Array) -> Array:

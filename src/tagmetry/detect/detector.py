@@ -27,7 +27,7 @@ from tagmetry.detect.grey import grey_8bit
 from tagmetry.detect.segment import DOUBLE_BELOW_PX, Squares, squares, squares_at_a_glance
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import AnyPixels, GreyPixels
+from tagmetry.geometry.arrays import AnyPixels, BoolArray, GreyPixels
 from tagmetry.markers import Layout, MarkerFamily, family
 
 _BORDER_PX = 2.0
@@ -75,7 +75,7 @@ class Detector:
                 makes of them.
         """
         grey = self._checked(image, camera)
-        return _detections(grey, best_per_place(self._candidates(grey)), camera)
+        return _detections(grey, self._candidates(grey), camera)
 
     def explain(self, image: AnyPixels, camera: Camera | None = None) -> Findings:
         """Return the markers, and the squares that were turned down, each with the reason."""
@@ -102,13 +102,13 @@ class Detector:
         return grouped
 
     def _candidates(self, grey: GreyPixels) -> list[Candidate]:
-        """Return what reads as a marker: at a glance, then thoroughly where that is worth it."""
+        """Return the markers: at a glance, then thoroughly where that is worth it."""
         least_px = self.min_side_px or default_min_side_px(grey.size)
         found = squares_at_a_glance(grey, least_px, bright=self._bright)
         candidates, pictures_px = self._read(grey, found)
+        candidates = best_per_place(candidates)
         looked_at, small_px = NOWHERE, least_px if least_px < DOUBLE_BELOW_PX else 0.0
         for _ in range(_LOOKS_AGAIN):
-            candidates = best_per_place(candidates)
             markers_px = np.array([one.corners_px for one in candidates]).reshape(-1, 4, 2)
             squares_px, shape = found.corners_px, grey.shape
             box = again(markers_px, pictures_px, squares_px, shape, small_px, looked_at)
@@ -116,7 +116,7 @@ class Detector:
                 break
             found = self._squares_within(grey, box, least_px)
             more, pictures_px = self._read(grey, found)
-            candidates, looked_at = candidates + more, box
+            candidates, looked_at = best_per_place(candidates + more), box
         return candidates
 
     def _squares_within(self, grey: GreyPixels, box: Box, least_px: float) -> Squares:
@@ -166,6 +166,7 @@ def _detections(
         expected_picture(grey, one.corners_px, one.match.family, one.match.id) for one in candidates
     ]
     refined = exact_corners(grey, corners_px, pictures, camera)
+    at_border = _touch_border(refined.corners_px, grey)
     detections = [
         Detection(
             candidate.match.family.name,
@@ -175,7 +176,7 @@ def _detections(
             candidate.match.hamming,
             candidate.match.confidence,
             candidate.is_inverted,
-            _touches_border(refined.corners_px[i], grey),
+            bool(at_border[i]),
         )
         for i, candidate in enumerate(candidates)
     ]
@@ -188,8 +189,8 @@ def default_min_side_px(pixel_count: int) -> float:
     return 8.0 * max(1.0, min(2.0, float(small_px)), float(large_px))
 
 
-def _touches_border(corners_px: Array, grey: GreyPixels) -> bool:
-    last_row, last_column = grey.shape[0] - 1, grey.shape[1] - 1
-    return any(
-        min(x, y, last_column - x, last_row - y) < _BORDER_PX for x, y in corners_px.tolist()
-    )
+def _touch_border(corners_px: Array, grey: GreyPixels) -> BoolArray:
+    """Say of each marker (n, 4, 2) whether a corner lies at the image's edge, shape (n,)."""
+    last_px = np.array([grey.shape[1] - 1, grey.shape[0] - 1])
+    near = np.minimum(corners_px, last_px - corners_px) < _BORDER_PX
+    return np.asarray(near.any(axis=(1, 2)))

@@ -9,11 +9,12 @@ import numpy as np
 from numba import njit
 
 from tagmetry.detect.sample import cell_means_of, steps_of
-from tagmetry.geometry.arrays import Array, GreyPixels
+from tagmetry.geometry.arrays import Array, GreyPixels, IntArray
 
 LEAST_CONTRAST = 8.0  # grey values between black and white
 BORDER_ERRORS = 0.2  # share of frame cells that may read wrong
 _EDGE_CELLS = 0.3  # how far inside and outside a side the image must differ
+_SHARPEN = 0.25  # share of the difference to each neighbour that is added
 
 
 class Spots(NamedTuple):
@@ -24,9 +25,11 @@ class Spots(NamedTuple):
         black: Centres of cells that are black on all markers, shape (b, 2), units of the side.
         white: Places that are white on all markers, shape (w, 2).
         bits: Centres of the cells with a bit, shape (k, 2).
-        to_dark: Takes the black ones to a plane at frame and bits, shape (f + k, b).
-        to_bright: Takes the white ones to a plane there, shape (f + k, w).
-        sharpening: Takes frame and bits to bits farther from their neighbours, shape (k, f + k).
+        black_plane: Takes the values at black ones to a plane through them, shape (3, b).
+        white_plane: The same of the white ones, shape (3, w).
+        plane_terms: Takes a plane to its values at frame and bits, shape (f + k, 3).
+        beside: Which cells of frame and bits touch each bit's sides, shape (k, 4); the bit itself
+            where that is none of them.
         frame: How many of black and white are cells of the marker, f.
         side_cells: Along a side.
         step_up: 1 where it is brighter outside of the sides, else -1.
@@ -36,9 +39,10 @@ class Spots(NamedTuple):
     black: Array
     white: Array
     bits: Array
-    to_dark: Array
-    to_bright: Array
-    sharpening: Array
+    black_plane: Array
+    white_plane: Array
+    plane_terms: Array
+    beside: IntArray
     frame: int
     side_cells: float
     step_up: float
@@ -59,7 +63,7 @@ def read_each(
         measures: For the result: border share, contrast, border margin, sharp outline, outline,
             shape (n, 5).
     """
-    cells, middle = np.empty(len(spots.to_dark)), np.empty(len(spots.to_dark))
+    cells, middle = np.empty(len(spots.plane_terms)), np.empty(len(spots.plane_terms))
     for i in range(len(H)):
         measures[i, 1] = _contrast(grey, H[i], spots, cells, middle)
         half = measures[i, 1] / 2
@@ -74,11 +78,9 @@ def _contrast(grey: GreyPixels, H: Array, spots: Spots, cells: Array, middle: Ar
     """Write the frame's values and what is midway everywhere; return white minus black or NaN."""
     black = cell_means_of(grey, H, spots.black, spots.reach)
     white = cell_means_of(grey, H, spots.white, spots.reach)
-    contrast = 0.0
-    for k in range(middle.size):
-        dark, bright = _dot(black, spots.to_dark[k]), _dot(white, spots.to_bright[k])
-        middle[k] = (dark + bright) / 2
-        contrast += (bright - dark) / middle.size
+    dark, bright = spots.black_plane @ black, spots.white_plane @ white
+    middle[:] = spots.plane_terms @ ((dark + bright) / 2)
+    contrast = (spots.plane_terms @ (bright - dark)).mean()
     for k in range(spots.frame):
         cells[k] = black[k] if k < black.size else white[k - black.size]
     return contrast if abs(contrast) >= LEAST_CONTRAST else np.nan
@@ -111,7 +113,10 @@ def _write_bits(
     for k in range(values.size):
         cells[spots.frame + k] = (values[k] - middle[spots.frame + k]) / half
     for k in range(values.size):
-        margins[k] = _dot(cells, spots.sharpening[k])
+        own = cells[spots.frame + k]
+        margins[k] = own
+        for near in spots.beside[k]:
+            margins[k] += _SHARPEN * (own - cells[near])
 
 
 @njit(cache=True, nogil=True)
@@ -129,11 +134,3 @@ def _write_outline(
         for step in steps:
             total += min(max(spots.step_up * step / (2 * half), 0.0), 1.0)
         clearness[k] = total / steps.size
-
-
-@njit(cache=True, nogil=True, fastmath={"reassoc"})  # so that it becomes a sum of vectors
-def _dot(a: Array, b: Array) -> float:
-    total = 0.0
-    for k in range(a.size):
-        total += a[k] * b[k]
-    return total
