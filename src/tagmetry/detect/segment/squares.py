@@ -7,7 +7,6 @@ glance does with the middle level, which finds almost all markers that stand alo
 tells of boards whose markers touch each other.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import cv2
@@ -15,12 +14,14 @@ import numpy as np
 
 from tagmetry.detect.segment.distinct import distinct
 from tagmetry.detect.segment.look import Look, dark_squares
+from tagmetry.detect.segment.threads import all_of
 from tagmetry.detect.segment.tiles import Tiles
 from tagmetry.geometry.arrays import Array, BoolArray, GreyPixels
 
 _FULL_BELOW_PX = 32.0  # the full image is looked at where sides may be shorter than this
 DOUBLE_BELOW_PX = 10.0
 _LEAST_IMAGE_PX = 8
+_SHARED_FROM_PIXELS = 500_000  # smaller images take less time than waking a thread is worth
 _SLACK = 0.9  # blur rounds corners off, so that squares look smaller at first
 _LEVELS = Look(0.35), Look(0.5), Look(0.7)
 _THIN = Look(0.5, thinned=True)
@@ -109,20 +110,27 @@ def _both(grey: GreyPixels, min_side_px: float, plan: _Plan, bright: bool) -> Sq
 
 def _seen(grey: GreyPixels, min_side_px: float, plan: _Plan) -> Array:
     """Return the dark squares of all looks, those alike once, shape (n, 4, 2)."""
-    corners_px = np.concatenate(list(_looks(grey, min_side_px, plan)))
+    scales = [scale for scale in plan if scale * min(grey.shape) >= _LEAST_IMAGE_PX]
+
+    def seen(scale: float) -> Array:
+        return _at_scale(grey, scale, plan[scale], min_side_px)
+
+    found = all_of(seen, scales, threads=_threads(grey))
+    corners_px = np.concatenate([np.empty((0, 4, 2)), *found])
     return corners_px[distinct(corners_px)]
 
 
-def _looks(grey: GreyPixels, min_side_px: float, plan: _Plan) -> Iterator[Array]:
-    """Give the dark squares of each look, pixels of the image."""
-    yield np.empty((0, 4, 2))
-    for scale, looks in plan.items():
-        if scale * min(grey.shape) >= _LEAST_IMAGE_PX:
-            scaled = _scaled(grey, scale)
-            tiles = Tiles.of(scaled)
-            for look in looks:
-                corners = dark_squares(scaled, tiles, look, _SLACK * scale * min_side_px)
-                yield (corners + 0.5) / scale - 0.5
+def _threads(grey: GreyPixels) -> int:
+    """Return how many threads are worth waking: as many as OpenCV may use, for large images."""
+    return cv2.getNumThreads() if grey.size >= _SHARED_FROM_PIXELS else 1
+
+
+def _at_scale(grey: GreyPixels, scale: float, looks: tuple[Look, ...], min_side_px: float) -> Array:
+    """Return the dark squares of looks at one scale, pixels of the image, shape (n, 4, 2)."""
+    scaled = _scaled(grey, scale)
+    tiles, least_px = Tiles.of(scaled), _SLACK * scale * min_side_px
+    found = [dark_squares(scaled, tiles, look, least_px) for look in looks]
+    return (np.concatenate(found) + 0.5) / scale - 0.5
 
 
 def _scaled(grey: GreyPixels, scale: float) -> GreyPixels:
