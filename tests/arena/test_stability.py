@@ -7,11 +7,17 @@ import numpy as np
 import pytest
 from delayed_world import STEP_S, DelayedWorld, swing
 
-from tagmetry.arena.controllers import Spring
+from tagmetry.arena.controllers import Arc, Course, Spring
 from tagmetry.arena.place import Place
-from tagmetry.arena.stability import FollowingSetting, Loop, stability, stability_by_delay
-from tagmetry.arena.stability.across import Across
-from tagmetry.arena.stability.along import Along
+from tagmetry.arena.stability import (
+    FollowingSetting,
+    Loop,
+    ideal_gaps_m,
+    stability,
+    stability_by_delay,
+)
+from tagmetry.arena.stability.across import Across, _Seen
+from tagmetry.arena.stability.along import PLACE, Along
 from tagmetry.arena.stability.loop import Margins
 from tagmetry.arena.stability.wheels import Lateness, Wheels
 from tagmetry.errors import InputError
@@ -92,6 +98,36 @@ def test_noise_moves_the_controller_itself_as_much_as_told():
     world = DelayedWorld(0.05, noise_m=np.sqrt(2) * sd_m).run(90.0)
     measured_m = np.std(world.gaps_m[round(5 / STEP_S) :])
     assert stability(setting(), sd_m).gap_sd_m == pytest.approx(measured_m, rel=0.1)
+
+
+@pytest.mark.parametrize("hold_s", [None, 0.2])
+def test_on_a_straight_line_the_ideal_drive_is_the_linear_loop(hold_s):
+    """Places from where the leader starts; the loop begins with its leader known and at rest."""
+    one = setting(0.07, untold_s=0.015, hold_s=hold_s)
+    course = Course(Place(0.0, 0.0, 0.0), (Arc(0.6),), start_s=1.0)
+    gaps_m = ideal_gaps_m(one, course)
+    loop = Loop.of(Along(one))
+    state = np.zeros(len(loop.own))
+    state[PLACE], state[-3] = -0.2, 0.2
+    for n, gap_m in enumerate(gaps_m):
+        leader_m = course.at(n * one.image_s).place.x_m
+        assert gap_m == pytest.approx(leader_m - state[PLACE], abs=1e-9)
+        state = loop.closed() @ state + loop.driven() @ [leader_m, 0.2]
+
+
+def test_small_offsets_move_as_places_do():
+    small = Place(0.2, 2e-6, 3e-6)
+    seen = _Seen(0.2, 2e-6, 3e-6, 4e-5)
+    passed = small.seen_from(Place(0.0, 0.0, 0.0).moved(0.05, 1e-5))
+    off = seen.passed(0.05, 1e-5)
+    assert (off.ahead_m, off.offset, off.heading) == pytest.approx(
+        (passed.x_m, passed.y_m, passed.heading_rad), abs=1e-9
+    )
+    carried = small.moved(0.3 * 0.5, 4e-5 * 0.5)
+    off = seen.carried(0.3, 0.5)
+    assert (off.ahead_m, off.offset, off.heading) == pytest.approx(
+        (carried.x_m, carried.y_m, carried.heading_rad), abs=1e-9
+    )
 
 
 def test_a_controller_that_knows_its_delay_bears_it():
