@@ -12,7 +12,7 @@ from tagmetry.lab.experiment import Experiment
 from tagmetry.lab.rigs.swarm import TASKS, swarmed
 from tagmetry.lab.rows import SwarmPlace
 
-_DURATIONS_S = {"aggregate": 20.0, "disperse": 20.0, "formation": 40.0}  # its leader drives
+_DURATIONS_S = {"aggregate": 15.0, "disperse": 15.0, "formation": 40.0}  # its leader drives
 
 
 @dataclass(frozen=True)
