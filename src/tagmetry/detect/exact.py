@@ -1,7 +1,7 @@
 """The best that can be said of corners: whole pictures where they fit, else the sides alone."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Self
 
 import numpy as np
@@ -29,6 +29,11 @@ class Exact(Corners):
         """Return no corners."""
         none = np.zeros((0, 4, 2)), np.zeros((0, 8, 8)), np.zeros(0, dtype=bool)
         return cls(*none, np.zeros((0, LOOK_COUNT)))
+
+    def and_also(self, others: Self) -> Self:
+        """Return these corners and others."""
+        pairs = [(getattr(self, one.name), getattr(others, one.name)) for one in fields(self)]
+        return type(self)(*(np.concatenate(pair) for pair in pairs))
 
     def at(self, which: BoolArray) -> Self:
         """Return some of them."""

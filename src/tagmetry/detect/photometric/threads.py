@@ -1,16 +1,17 @@
 """Markers shared out among threads: the kernels let go of the interpreter."""
 
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from tagmetry.detect.photometric.marker import fit_markers
+from tagmetry.detect.workers import at_once
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels
 
-_LEAST_SHARE = 24  # markers: some milliseconds, that waking a thread be worth it
+_LEAST_SHARE = 8  # markers: a millisecond, that waking a thread be worth it
 
 
 def fit_by_threads(
@@ -48,6 +49,5 @@ def fit_by_threads(
         return fitted(slice(None))
     ends = np.linspace(0, len(inks), count + 1).astype(int)
     shares = [slice(int(a), int(b)) for a, b in pairwise(ends)]
-    with ThreadPoolExecutor(count) as pool:
-        done = list(pool.map(fitted, shares))
+    done = at_once([partial(fitted, share) for share in shares])
     return tuple(np.concatenate(parts) for parts in zip(*done, strict=True))

@@ -8,6 +8,7 @@ errors of one image do not reach the next, and a marker that is covered is not r
 """
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -32,6 +33,7 @@ from tagmetry.detect.track.search import Search
 from tagmetry.detect.track.seen import Seen
 from tagmetry.detect.track.strips import turns
 from tagmetry.detect.track.tracks import Tracks
+from tagmetry.detect.workers import both
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import AnyPixels
@@ -157,13 +159,29 @@ class Tracker:
         since_s = self._since_s(size_px, time_s)
         known = known_at(self._tracks, self._announced, time_s, since_s, self.fastest_px_s)
         expected = as_expected(looked_at, families, self.detector.rules, known)
-        found = self._found(looked_at, known, expected)
-        looks = known.tracks.looks[expected.rows]
-        seen, exact = _exact(looked_at, expected, looks, found, families, camera)
+        seen, exact = self._searched_and_measured(looked_at, known, expected, camera)
         self._tracks = followed(known, seen, exact, time_s, self.forget_s)
         self._time_s, self._size_px, self._turn = time_s, size_px, self._turn + 1
         self._announced = []
         return detections(seen, exact, families, size_px)
+
+    def _searched_and_measured(
+        self, looked_at: Greyed, known: Known, expected: Seen, camera: Camera | None
+    ) -> tuple[Seen, Exact]:
+        """Return the markers that are reported, with their exact corners.
+
+        What was seen where it was expected must be measured too, to be believed; while it is,
+        another thread searches for others.
+        """
+        looks, families = known.tracks.looks[expected.rows], self.detector.families
+        found, exact = both(
+            partial(self._found, looked_at, known, expected),
+            partial(_measured, looked_at, expected, looks, families, camera),
+        )
+        unknown = np.full((len(found), LOOK_COUNT), np.nan)
+        also = _measured(looked_at, found, unknown, families, camera)
+        seen = expected.at(exact.refined).and_also(found)
+        return seen, exact.at(exact.refined).and_also(also)
 
     def _checked(self, image: AnyPixels, time_s: float, camera: Camera | None) -> Greyed:
         looked_at = Greyed(image)
@@ -212,29 +230,18 @@ class Tracker:
         return self.detector.min_side_px or default_min_side_px(size_px[0] * size_px[1])
 
 
-def _exact(
+def _measured(
     looked_at: Greyed,
-    expected: Seen,
+    seen: Seen,
     looks: Array,
-    found: Seen,
     families: Sequence[MarkerFamily],
     camera: Camera | None,
-) -> tuple[Seen, Exact]:
-    """Return the markers that are reported, with their exact corners.
-
-    What was seen where it was expected must be measured too, to be believed. How those looked in
-    the image before is known, shape (m, 10).
-    """
-    seen = expected.and_also(found)
+) -> Exact:
+    """Return where exactly markers are; how they looked in the image before has shape (m, 10)."""
     if not len(seen):
-        return seen, Exact.nothing()
+        return Exact.nothing()
     pictures = [
         expected_picture(looked_at.grey, seen.corners_px[i], families[place], int(seen.ids[i]))
         for i, place in enumerate(seen.families.tolist())
     ]
-    unknown = np.full((len(found), LOOK_COUNT), np.nan)
-    looks = np.concatenate([looks, unknown])
-    exact = exact_corners(looked_at.grey, seen.corners_px, pictures, camera, looks)
-    kept = exact.refined.copy()
-    kept[len(expected) :] = True
-    return seen.at(kept), exact.at(kept)
+    return exact_corners(looked_at.grey, seen.corners_px, pictures, camera, looks)

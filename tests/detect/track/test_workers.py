@@ -1,0 +1,58 @@
+"""Work that is shared out among threads: order, errors, no waiting for what is only queued."""
+
+import threading
+from collections.abc import Iterator
+from functools import partial
+
+import cv2
+import numpy as np
+import pytest
+from moving_markers import STEP_S, Shown, image
+
+from tagmetry.detect import Tracker
+from tagmetry.detect.workers import at_once, both
+
+
+@pytest.fixture(params=[1, 2])
+def threads(request: pytest.FixtureRequest) -> Iterator[int]:
+    before = cv2.getNumThreads()
+    cv2.setNumThreads(request.param)
+    yield request.param
+    cv2.setNumThreads(before)
+
+
+def test_results_come_in_the_order_of_the_tasks() -> None:
+    assert at_once([partial(pow, 2, k) for k in range(100)]) == [2**k for k in range(100)]
+    assert at_once([]) == []
+
+
+def test_two_tasks_give_two_results(threads: int) -> None:
+    assert both(lambda: "one", threading.get_ident) == ("one", threading.get_ident())
+
+
+def test_an_error_reaches_whoever_asked(threads: int) -> None:
+    with pytest.raises(ZeroDivisionError):
+        both(lambda: 1 // 0, lambda: 1)
+
+
+def test_work_within_work_does_not_wait_for_itself() -> None:
+    """Every thread of the pool shares out again: none is left to do it, so it is done at once."""
+    inner = partial(at_once, [partial(sum, range(k)) for k in range(8)])
+    assert at_once([inner] * 64) == [inner()] * 64
+
+
+def test_a_tracker_reports_the_same_with_any_number_of_threads() -> None:
+    films = [
+        [Shown(k, 60 + 60 * k + 2 * n, 80 + 30 * k, side_px=40) for k in range(4)] for n in range(6)
+    ]
+    before, told = cv2.getNumThreads(), []
+    try:
+        for count in (1, 2):
+            cv2.setNumThreads(count)
+            tracker = Tracker()
+            found = [tracker.track(image(film, 1), n * STEP_S) for n, film in enumerate(films)]
+            told.append([(one.id, one.corners_px) for some in found for one in some])
+    finally:
+        cv2.setNumThreads(before)
+    assert [one for one, _ in told[0]] == [one for one, _ in told[1]]
+    np.testing.assert_array_equal([at for _, at in told[0]], [at for _, at in told[1]])
