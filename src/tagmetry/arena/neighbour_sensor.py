@@ -63,3 +63,9 @@ class NeighbourSensor:
             raise InputError(f"drop_probability is 0 to 1, got {self.drop_probability}")
         if self.most is not None and self.most < 0:
             raise InputError(f"most must not be negative, got {self.most}")
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether chance has no part in what it tells."""
+        sds = self.range_sd_m, self.range_sd_share, self.bearing_sd_rad, self.heading_sd_rad
+        return not any(sds) and self.drop_probability == 0

@@ -16,7 +16,7 @@ from tagmetry.arena.neighbour_sensor import NeighbourSensor
 from tagmetry.arena.obstacles import Obstacle, between
 from tagmetry.arena.world_state import WorldState
 from tagmetry.geometry import Array, wrap_angle_rad
-from tagmetry.geometry.arrays import BoolArray
+from tagmetry.geometry.arrays import BoolArray, IntArray
 
 _KEPT = 4096  # worlds, for what is told late
 
@@ -124,22 +124,30 @@ class Neighbourhood:
             world: The robots now; later than the one before.
         """
         self._crowds.append(_Crowd(world))
-        return tuple(self._told(robot.id, world.time_s) for robot in world)
+        by_sensor: dict[NeighbourSensor, list[int]] = {}
+        for robot in world:
+            by_sensor.setdefault(self.sensor_of(robot.id), []).append(robot.id)
+        told: dict[int, Told] = {}
+        for sensor, ids in by_sensor.items():
+            told |= self._told(sensor, ids, world.time_s)
+        return tuple(told[robot.id] for robot in world)
 
     def sensor_of(self, robot_id: int) -> NeighbourSensor:
         """Return the sensor that a robot has."""
         return self.sensors.get(robot_id, self.sensor)
 
-    def _told(self, robot_id: int, time_s: float) -> Told:
-        sensor = self.sensor_of(robot_id)
+    def _told(self, sensor: NeighbourSensor, ids: Sequence[int], time_s: float) -> dict[int, Told]:
+        """Return what robots with a sensor are told, by id."""
+        told = {robot_id: Told(robot_id, time_s, (), ()) for robot_id in ids}
         crowd = self._crowd_at(time_s - sensor.delay_s)
-        if crowd is None or robot_id not in crowd.rows:
-            return Told(robot_id, time_s, (), ())
-        if robot_id not in self._rngs:
-            self._rngs[robot_id] = np.random.default_rng([self.seed, robot_id])
-        row, rng = crowd.rows[robot_id], self._rngs[robot_id]
-        neighbours = self._neighbours(crowd, row, sensor, rng, time_s)
-        return Told(robot_id, time_s, neighbours, self._near(crowd.places[row], sensor, rng))
+        known = [one for one in ids if crowd is not None and one in crowd.rows]
+        if crowd is None or not known:
+            return told
+        neighbours = self._neighbours(crowd, known, sensor, time_s)
+        for robot_id, seen in zip(known, neighbours, strict=True):
+            near = self._near(crowd.places[crowd.rows[robot_id]], sensor, robot_id)
+            told[robot_id] = Told(robot_id, time_s, seen, near)
+        return told
 
     def _crowd_at(self, time_s: float) -> _Crowd | None:
         """Return the newest that is old enough."""
@@ -147,45 +155,73 @@ class Neighbourhood:
         return next((one for one in late if one.world.time_s <= time_s + 1e-9), None)
 
     def _neighbours(
-        self,
-        crowd: _Crowd,
-        row: int,
-        sensor: NeighbourSensor,
-        rng: np.random.Generator,
-        time_s: float,
-    ) -> tuple[Neighbour, ...]:
-        own, robots = crowd.places[row], crowd.world.robots
-        ranges, bearings = (values[row] for values in crowd.polar)
-        is_sensed = _within(ranges, bearings, sensor)
-        is_sensed[row] = False
-        if sensor.line_of_sight:
-            is_sensed &= self._in_sight(crowd, row, ranges <= 2 * sensor.range_m)
-        which = np.flatnonzero(is_sensed)
-        turns = crowd.places[which, 2] - own[2]
-        told = sensed(np.stack([ranges[which], bearings[which], turns], axis=-1), sensor, rng)
+        self, crowd: _Crowd, ids: Sequence[int], sensor: NeighbourSensor, time_s: float
+    ) -> list[tuple[Neighbour, ...]]:
+        """Return whom each of some robots senses, the nearest first."""
+        robots, rows = crowd.world.robots, np.array([crowd.rows[one] for one in ids])
+        is_sensed = self._sensed_of(crowd, rows, sensor)
+        who, whom = np.nonzero(is_sensed)
+        ranges, bearings = (values[rows[who], whom] for values in crowd.polar)
+        turns = crowd.places[whom, 2] - crowd.places[rows[who], 2]
+        draws = self._draws(ids, is_sensed.sum(axis=1).tolist(), sensor)
+        told = sensed(np.stack([ranges, bearings, turns], axis=-1), sensor, *draws)
         late_s = time_s - crowd.world.time_s
-        found = [
-            Neighbour(robots[k].id, values[0], values[1], values[2], robots[k].age_s + late_s)
-            for k, values in zip(which.tolist(), told.tolist(), strict=True)
-            if values[0] == values[0]  # NaN dropped out
-        ]
-        return tuple(sorted(found, key=lambda one: one.range_m)[: sensor.most])
+        found: list[list[Neighbour]] = [[] for _ in ids]
+        order = np.lexsort((told[:, 0], who))
+        for k, m, values in zip(*(one[order].tolist() for one in (who, whom, told)), strict=True):
+            range_m, bearing_rad, turn_rad = values
+            if range_m == range_m:  # NaN dropped out
+                age_s = robots[m].age_s + late_s
+                found[k].append(Neighbour(robots[m].id, range_m, bearing_rad, turn_rad, age_s))
+        return [tuple(seen[: sensor.most]) for seen in found]
 
-    def _near(
-        self, own: Array, sensor: NeighbourSensor, rng: np.random.Generator
-    ) -> tuple[NearObstacle, ...]:
+    def _sensed_of(self, crowd: _Crowd, rows: IntArray, sensor: NeighbourSensor) -> BoolArray:
+        """Say which of all robots (columns) those of some rows have within sight, shape (m, n)."""
+        ranges, bearings = (values[rows] for values in crowd.polar)
+        is_sensed = _within(ranges, bearings, sensor)
+        is_sensed[np.arange(len(rows)), rows] = False
+        if sensor.line_of_sight:
+            for k, row in enumerate(rows.tolist()):
+                is_sensed[k] &= self._in_sight(crowd, row, ranges[k] <= 2 * sensor.range_m)
+        return is_sensed
+
+    def _near(self, own: Array, sensor: NeighbourSensor, robot_id: int) -> tuple[NearObstacle, ...]:
         if not self.obstacles:
             return ()
         points = np.array([one.nearest_point(own[:2]) for one in self.obstacles])
         ranges, bearings = _polar(own, points)
         which = np.flatnonzero(_within(ranges, bearings, sensor))
         asked = np.stack([ranges[which], bearings[which], np.zeros(len(which))], axis=-1)
+        told = sensed(asked, sensor, *self._draws([robot_id], [len(which)], sensor))
         found = [
             NearObstacle(self.obstacles[k].name, values[0], values[1])
-            for k, values in zip(which.tolist(), sensed(asked, sensor, rng).tolist(), strict=True)
+            for k, values in zip(which.tolist(), told.tolist(), strict=True)
             if values[0] == values[0]
         ]
         return tuple(sorted(found, key=lambda one: one.range_m))
+
+    def _draws(
+        self, ids: Sequence[int], counts: Sequence[int], sensor: NeighbourSensor
+    ) -> tuple[Array, Array]:
+        """Return random numbers for so many readings of each robot: normal (n, 3), even (n,).
+
+        The same count is drawn whatever a sensor's faults are, so that runs with and without one of
+        them can be compared; a sensor without any needs none.
+        """
+        if sensor.is_exact:
+            return np.zeros((sum(counts), 3)), np.ones(sum(counts))
+        rngs = [self._rng(robot_id) for robot_id in ids]
+        draws = [
+            (rng.standard_normal((count, 3)), rng.random(count))
+            for rng, count in zip(rngs, counts, strict=True)
+        ]
+        normal, even = zip(*draws, strict=True)
+        return np.concatenate(normal), np.concatenate(even)
+
+    def _rng(self, robot_id: int) -> np.random.Generator:
+        if robot_id not in self._rngs:
+            self._rngs[robot_id] = np.random.default_rng([self.seed, robot_id])
+        return self._rngs[robot_id]
 
     def _in_sight(self, crowd: _Crowd, row: int, is_near: BoolArray) -> BoolArray:
         """Say which of the robots that are near nothing hides, shape (n,)."""
@@ -203,25 +239,22 @@ class Neighbourhood:
         return in_sight
 
 
-def sensed(exact: Array, sensor: NeighbourSensor, rng: np.random.Generator) -> Array:
+def sensed(exact: Array, sensor: NeighbourSensor, normal: Array, even: Array) -> Array:
     """Return what a sensor gives, NaN where it drops out.
-
-    The same count of random numbers is drawn whatever the faults are, so that runs with and without
-    one of them can be compared.
 
     Args:
         exact: Ranges, bearings and relative headings, shape (n, 3), m and rad.
         sensor: Its faults.
-        rng: Where the noise comes from.
+        normal: Random numbers of a normal distribution, shape (n, 3).
+        even: Random numbers from 0 to 1, shape (n,).
     """
-    noise, chance = rng.standard_normal(exact.shape), rng.random(len(exact))
     deviations = np.empty(exact.shape)
     deviations[:, 0] = np.hypot(sensor.range_sd_m, sensor.range_sd_share * exact[:, 0])
     deviations[:, 1:] = sensor.bearing_sd_rad, sensor.heading_sd_rad
-    noisy = exact + deviations * noise
+    noisy = exact + deviations * normal
     noisy[:, 0] = _rounded(np.maximum(noisy[:, 0], 0.0), sensor.range_step_m)
     noisy[:, 1:] = wrap_angle_rad(_rounded(noisy[:, 1:], sensor.angle_step_rad))
-    noisy[chance < sensor.drop_probability] = np.nan
+    noisy[even < sensor.drop_probability] = np.nan
     return np.asarray(noisy)
 
 
