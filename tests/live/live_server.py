@@ -14,7 +14,7 @@ from websockets.sync.client import ClientConnection, connect
 from tagmetry.live.access import Access
 from tagmetry.live.hub import Hub
 from tagmetry.live.messages import Asked
-from tagmetry.live.rooms.every import opened_rooms
+from tagmetry.live.rooms.every import Furniture, opened_rooms
 from tagmetry.live.rooms.room import Room
 from tagmetry.live.serving import listening, server
 
@@ -91,13 +91,19 @@ class Served:
 
 
 @contextmanager
-def served(address: str = "127.0.0.1", port: int = 0) -> Iterator[Served]:
-    """Give a server that runs in a thread."""
+def served(
+    address: str = "127.0.0.1", port: int = 0, furniture: Furniture | None = None
+) -> Iterator[Served]:
+    """Give a server that runs in a thread; its rooms do something where they are furnished."""
     hub, runner = Hub(), Remembering()
-    with listening("127.0.0.1", port) as opened, opened_rooms(hub.give, runner) as rooms:
+    with (
+        listening("127.0.0.1", port) as opened,
+        opened_rooms(hub.give, runner, furniture or Furniture()) as rooms,
+    ):
         port = opened.getsockname()[1]
         access = Access(address, port)
-        own = server(access, hub, runner, [without_deeds(room, runner) for room in rooms])
+        quiet = [without_deeds(room, runner) for room in rooms]
+        own = server(access, hub, runner, rooms if furniture else quiet)
         with running(own, opened):
             yield Served(port, access, hub, runner)
 

@@ -9,14 +9,17 @@ import pytest
 from chromium import Chromium, browser_path
 from live_server import Served, served
 
+from tagmetry.live.rooms.every import Furniture
+
 PICTURES = os.environ.get("LIVE_PICTURES")  # a folder; for the docs
+SLOW_S = 60.0  # pictures are rendered, on a busy computer
 PHONE, DESK = (390, 844), (1280, 1150)
 
 
 @pytest.fixture(scope="module")
-def live() -> Iterator[Served]:
+def live(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     browser_path()
-    with served() as own:
+    with served(furniture=Furniture(cameras=tmp_path_factory.mktemp("page") / "cameras")) as own:
         yield own
 
 
@@ -36,6 +39,11 @@ def enter(browser: Chromium, live: Served, room: str) -> None:
         browser.run("document.getElementById('sign-in').requestSubmit(); true")
         browser.wait("document.getElementById('connection').textContent.includes('you command')")
     browser.wait(f"!document.getElementById('room-{room}').hidden")
+
+
+def press(browser: Chromium, id_: str) -> None:
+    browser.wait(f"!document.getElementById('{id_}').disabled")
+    browser.run(f"document.getElementById('{id_}').click(); true")
 
 
 def put(browser: Chromium, id_: str, value: str) -> None:
@@ -90,6 +98,28 @@ def test_a_sheet_is_chosen_seen_and_fetched(window: Chromium, live: Served) -> N
     window.run("document.getElementById('print-form').dispatchEvent(new Event('input')); true")
     window.wait(f"{told}.includes('square 30 mm')")
     fits_a_phone(window, "print")
+
+
+def test_a_camera_is_calibrated_on_the_twins_board(window: Chromium, live: Served) -> None:
+    enter(window, live, "calibrate")
+    says = "document.getElementById('calibrate-{}').textContent"
+    assert "Nothing is being calibrated" in window.run(says.format("advice"))
+    press(window, "calibrate-begin")
+    window.wait(says.format("advice") + ".includes('Hold the board')", SLOW_S)
+    window.wait(says.format("far") + ".includes('4 views')", SLOW_S)
+    window.wait("document.getElementById('calibrate-picture').dataset.corners > 0", SLOW_S)
+    photograph(window, "calibrate-looking")
+    press(window, "calibrate-end")
+    window.wait("!document.getElementById('calibrate-result').hidden", SLOW_S)
+    numbers = window.run(says.format("numbers"))
+    assert "fx" in numbers
+    put(window, "calibrate-name", "door")
+    window.run("document.getElementById('calibrate-save').requestSubmit(); true")
+    window.wait(says.format("saved") + ".includes('door.yaml')")
+    report = "fetch('/calibrate/report').then(async (a) => (await a.text()).slice(0, 15))"
+    assert window.run(report) == "<!doctype html>"
+    photograph(window, "calibrate")
+    fits_a_phone(window, "calibrate")
 
 
 def test_the_space_bar_stops_in_every_room(window: Chromium, live: Served) -> None:

@@ -14,7 +14,7 @@ from tagmetry.errors import InputError
 from tagmetry.live.hub import Hub
 from tagmetry.live.messages import CONTRACT, Beat, GoTo, Seen, Stop
 from tagmetry.live.page import PARTS
-from tagmetry.live.rooms.every import opened_rooms
+from tagmetry.live.rooms.every import Furniture, opened_rooms
 from tagmetry.live.server import ROUTES, create_app
 from tagmetry.live.serving import listening
 from tagmetry.live.wire import format_message
@@ -40,7 +40,7 @@ def far_headers(far: Served) -> dict[str, str]:
 
 
 def test_every_route_of_the_app_is_declared_with_its_role(live: Served) -> None:
-    with opened_rooms(live.hub.give) as rooms:
+    with opened_rooms(live.hub.give, live.runner, Furniture()) as rooms:
         app = create_app(live.access, Hub(), live.runner, rooms)
     methods = {
         route.path: (*sorted(getattr(route, "methods", None) or ["WEBSOCKET"]),)
@@ -54,7 +54,7 @@ def test_every_route_of_the_app_is_declared_with_its_role(live: Served) -> None:
 def test_a_route_answers_its_method_alone(live: Served, path: str, method: str, wrong: str) -> None:
     status, _, _ = live.ask(wrong, path, None, Origin=live.origin)
     right = wrong == method
-    assert status in ({200, 403, 422} if right else {404, 405})  # 422: without its parameters
+    assert status in ({200, 403, 409, 422} if right else {404, 405})  # 409, 422: not now, not so
 
 
 def test_what_anybody_gets_is_the_page_alone(far: Served) -> None:
@@ -80,6 +80,7 @@ def test_a_viewer_is_heard_where_it_may_and_an_operator_always(live: Served, rul
     values = {
         "robot_id": 1, "x_m": 0.0, "y_m": 0.0, "name": "disperse", "robots": 2, "why": "x",
         "points_m": ((0.0, 0.5),), "value": 0.5,
+        "board": "chessboard:9x6:25mm", "uncertainty": "0.5px",
     }  # fmt: skip
     asked = rule.message(**{n: values[n] for n in rule.message.__dataclass_fields__})
     before = len(live.runner.asked)

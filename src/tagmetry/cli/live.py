@@ -36,6 +36,12 @@ def live(  # noqa: PLR0913 (each argument is an option)
     recordings: Annotated[
         Path, typer.Option(help="Folder for what is recorded on the page.")
     ] = Path("recordings"),
+    camera: Annotated[
+        str, typer.Option(help="Calibrated on the page: 0, a stream, or twin, a simulated one.")
+    ] = "twin",
+    cameras: Annotated[
+        Path, typer.Option(help="Folder for cameras that are calibrated on the page.")
+    ] = Path("cameras"),
     headless: Annotated[
         Path | None, typer.Option(help="Write a video instead of serving a page: .mp4.")
     ] = None,
@@ -49,6 +55,7 @@ def live(  # noqa: PLR0913 (each argument is an option)
         return
     require_server()
     from tagmetry.live.opening import opened_page
+    from tagmetry.live.rooms.every import Furniture
 
     with opened_page(
         scenario,
@@ -59,5 +66,6 @@ def live(  # noqa: PLR0913 (each argument is an option)
         controllers=controller or (),
         pictures=pictures,
         eye=eye,
+        furniture=Furniture(camera, cameras),
     ) as page:
         serve(page, browser=browser)

@@ -7,6 +7,14 @@ sender and the role that it needs; the page of the protocol is written from it.
 from dataclasses import dataclass
 from typing import Literal
 
+from tagmetry.live.rooms.calibrate.messages import (
+    CalibrationPicture,
+    CalibrationState,
+    EndCalibration,
+    SaveCalibration,
+    StartCalibration,
+)
+
 Sender = Literal["server", "page"]
 Role = Literal["viewer", "operator"]
 Task = Literal["own", "visit", "walk", "wait"]
@@ -403,7 +411,18 @@ class StopRecording:
     """End the recording."""
 
 
-Told = Welcome | World | Stage | Picture | Health | Delivery | FloorErrors | Refused
+Told = (
+    Welcome
+    | World
+    | Stage
+    | Picture
+    | Health
+    | Delivery
+    | FloorErrors
+    | Refused
+    | CalibrationPicture
+    | CalibrationState
+)
 Asked = (
     Beat
     | Seen
@@ -418,6 +437,9 @@ Asked = (
     | MeasureErrors
     | StartRecording
     | StopRecording
+    | StartCalibration
+    | EndCalibration
+    | SaveCalibration
 )
 
 # who sends one of these drives from then on
@@ -453,6 +475,8 @@ CONTRACT = (
     Rule(Delivery, "server", "viewer"),
     Rule(FloorErrors, "server", "viewer"),
     Rule(Refused, "server", "viewer"),
+    Rule(CalibrationPicture, "server", "viewer"),
+    Rule(CalibrationState, "server", "viewer"),
     Rule(Beat, "page", "operator"),
     Rule(Seen, "page", "viewer"),
     Rule(Stop, "page", "viewer"),  # stopping is always safe
@@ -466,4 +490,7 @@ CONTRACT = (
     Rule(MeasureErrors, "page", "operator"),
     Rule(StartRecording, "page", "operator"),
     Rule(StopRecording, "page", "operator"),
+    Rule(StartCalibration, "page", "operator"),
+    Rule(EndCalibration, "page", "operator"),
+    Rule(SaveCalibration, "page", "operator"),
 )

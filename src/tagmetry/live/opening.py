@@ -12,12 +12,13 @@ import uvicorn
 
 from tagmetry.live.access import Access
 from tagmetry.live.hub import Hub
-from tagmetry.live.rooms.every import opened_rooms
+from tagmetry.live.rooms.every import Furniture, opened_rooms
 from tagmetry.live.runner import LiveRunner
 from tagmetry.live.seeing import EyeKind
 from tagmetry.live.serving import listening, server
 
 _STARTING_S = 0.01  # between two looks
+_USUAL = Furniture()
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +58,7 @@ class LivePage:
 
 
 @contextmanager
-def opened_page(
+def opened_page(  # noqa: PLR0913 (each is an option of the command)
     scenario: str,
     robots: int,
     address: str,
@@ -67,6 +68,7 @@ def opened_page(
     controllers: Sequence[Path] = (),
     pictures: bool = True,
     eye: EyeKind = "corners",
+    furniture: Furniture = _USUAL,
 ) -> Iterator[LivePage]:
     """Give a page whose arena runs; it ends with the block.
 
@@ -79,6 +81,7 @@ def opened_page(
         controllers: Files of users that can be chosen.
         pictures: Show what the camera sees.
         eye: What is measured: corners with noise, or pictures by the detector.
+        furniture: What the other rooms work with.
 
     Raises:
         InputError: One of them cannot be used.
@@ -96,7 +99,7 @@ def opened_page(
                 pictures=pictures,
                 eye=eye,
             ) as runner,
-            opened_rooms(hub.give, runner) as rooms,
+            opened_rooms(hub.give, runner, furniture) as rooms,
         ):
             host = f"[{address}]" if ":" in address else address
             url = f"http://{host}:{port}/"

@@ -37,6 +37,7 @@ ROUTES: dict[str, tuple[str, Role | None]] = {  # path: method and role; None: a
     "/print/preview": ("GET", "viewer"),
     "/print/sheet.pdf": ("GET", "viewer"),
     "/print/sheet.svg": ("GET", "viewer"),
+    "/calibrate/report": ("GET", "viewer"),
     "/live": ("WEBSOCKET", "viewer"),
 }
 

@@ -20,7 +20,10 @@ class Part:
 _KINDS = {".html": "text/html", ".js": "text/javascript", ".css": "text/css"}
 _NAMES = (
     "app.js",
+    "calibration_charts.js",
+    "calibration_view.js",
     "camera.js",
+    "canvas.js",
     "door.js",
     "link.js",
     "make.js",
@@ -30,6 +33,7 @@ _NAMES = (
     "player.js",
     "rooms.js",
     "rooms/arena.js",
+    "rooms/calibrate.js",
     "rooms/health.js",
     "rooms/print.js",
     "rooms/recordings.js",

@@ -5,6 +5,7 @@ import { News } from "./news.js";
 import { Notice } from "./notice.js";
 import { Rooms } from "./rooms.js";
 import { ArenaRoom } from "./rooms/arena.js";
+import { CalibrateRoom } from "./rooms/calibrate.js";
 import { HealthRoom } from "./rooms/health.js";
 import { PrintRoom } from "./rooms/print.js";
 import { RecordingsRoom } from "./rooms/recordings.js";
@@ -21,7 +22,13 @@ const page = {
   notice: (text) => notice.show(text),
   get commands() { return door.commands; },
 };
-const rooms = new Rooms([new ArenaRoom(page), new RecordingsRoom(page), new PrintRoom(), new HealthRoom()]);
+const rooms = new Rooms([
+  new ArenaRoom(page),
+  new RecordingsRoom(page),
+  new CalibrateRoom(page),
+  new PrintRoom(),
+  new HealthRoom(),
+]);
 let beating = null;
 
 async function take(message) {

@@ -211,6 +211,80 @@ export interface Refused {
   why: string;
 }
 
+/** What the camera to be calibrated sees. */
+export interface CalibrationPicture {
+  type: "CalibrationPicture";
+  /** Of the picture as it is sent. */
+  width_px: number;
+  /** Of the picture as it is sent. */
+  height_px: number;
+  /** Of the board that was found in it; empty where none was. */
+  corners_px: [number, number][];
+  /** Where the board's edge is wanted next, clockwise; null where the lens shows nothing. */
+  outline_px: [number, number][];
+  /** The picture's file; it goes behind the JSON of the others. */
+  jpeg: Blob;
+}
+
+/** A number of the camera. */
+export interface CalibrationNumber {
+  /** `fx`, `cx`, `k1` and so on. */
+  name: string;
+  /** In pixels, or without a unit. */
+  value: number;
+  /** Its standard deviation. */
+  sd: number;
+}
+
+/** A camera, and what it is worth. */
+export interface CalibrationResult {
+  /** Its model. */
+  lens: string;
+  /** What was solved. */
+  numbers: CalibrationNumber[];
+  /** Error of the views that it rests on. */
+  rms_px: number;
+  /** Error of views that were left out in turn. */
+  hold_out_px: number;
+  /** Largest standard deviation of projections over the image. */
+  worst_px: number;
+  /** good, usable or poor. */
+  grade: string;
+  /** The verdict in sentences. */
+  words: string;
+  /** What the camera can be used for. */
+  fit_for: string[];
+  /** What is weak, the worst first. */
+  doubts: string[];
+  /** There is a report to download. */
+  has_report: boolean;
+}
+
+/** How far the calibration is. */
+export interface CalibrationState {
+  type: "CalibrationState";
+  /** What goes on; `failed` says why in `why`. */
+  phase: "looking" | "solving" | "done" | "failed";
+  /** That is calibrated. */
+  camera: string;
+  /** In one line. */
+  board: string;
+  /** Uncertainty to be reached at the worst place of the image. */
+  wanted_px: number;
+  /** What to do now, in words. */
+  advice?: string;
+  /** Why the newest image was not taken, or what failed; empty where nothing did. */
+  why?: string;
+  /** At the worst place of the image, after each view taken. */
+  uncertainty_px?: number[];
+  /** How many corners were seen in each cell of the image, 6 rows of 8. */
+  coverage?: number[][];
+  /** The camera; None before it is solved. */
+  result?: CalibrationResult | null;
+  /** Name of the files that it was saved as; empty before. */
+  saved?: string;
+}
+
 /** The page that drives is open and looked at; without it for 300 ms, all robots stop. */
 export interface Beat {
   type: "Beat";
@@ -302,6 +376,27 @@ export interface StopRecording {
   type: "StopRecording";
 }
 
+/** Look at a board and take views of it. */
+export interface StartCalibration {
+  type: "StartCalibration";
+  /** In one line, like `charuco:7x5:30mm:22mm:5x5_100`. */
+  board: string;
+  /** To be reached at the worst place of the image, like `0.5px`. */
+  uncertainty: string;
+}
+
+/** Take no more views, and solve from those that were taken. */
+export interface EndCalibration {
+  type: "EndCalibration";
+}
+
+/** Write the camera's file and its report into the server's folder. */
+export interface SaveCalibration {
+  type: "SaveCalibration";
+  /** Of the files, without a suffix: letters, digits, - and _. */
+  name: string;
+}
+
 export type Told =
   | Welcome
   | World
@@ -310,7 +405,9 @@ export type Told =
   | Health
   | Delivery
   | FloorErrors
-  | Refused;
+  | Refused
+  | CalibrationPicture
+  | CalibrationState;
 
 export type Asked =
   | Beat
@@ -325,4 +422,7 @@ export type Asked =
   | ChooseScenario
   | MeasureErrors
   | StartRecording
-  | StopRecording;
+  | StopRecording
+  | StartCalibration
+  | EndCalibration
+  | SaveCalibration;

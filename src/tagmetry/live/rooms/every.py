@@ -2,8 +2,11 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
 
 from tagmetry.live.messages import Told
+from tagmetry.live.rooms.calibrate.room import calibrate_room
 from tagmetry.live.rooms.floor_errors import floor_errors_room
 from tagmetry.live.rooms.printing import printing_room
 from tagmetry.live.rooms.recordings import recordings_room
@@ -11,15 +14,36 @@ from tagmetry.live.rooms.room import Room
 from tagmetry.live.running import Runner
 
 
+@dataclass(frozen=True)
+class Furniture:
+    """What rooms work with.
+
+    Attributes:
+        camera: That is calibrated: `twin`, or as `tagmetry.pipeline.open_images` understands it.
+        cameras: Folder for cameras' files and reports.
+    """
+
+    camera: str = "twin"
+    cameras: Path = Path("cameras")
+
+
 @contextmanager
-def opened_rooms(give: Callable[[Told], None], runner: Runner) -> Iterator[tuple[Room, ...]]:
+def opened_rooms(
+    give: Callable[[Told], None], runner: Runner, furniture: Furniture
+) -> Iterator[tuple[Room, ...]]:
     """Give the rooms of one server; what runs in them ends with the block.
 
     Args:
-        give: Takes what pages are told, from any thread.
+        give: Takes what pages are told, from any thread, and returns at once.
         runner: The arena.
+        furniture: What the rooms work with.
     """
-    rooms = (recordings_room(runner), printing_room(), floor_errors_room(give))
+    rooms = (
+        recordings_room(runner),
+        printing_room(),
+        floor_errors_room(give),
+        calibrate_room(give, furniture.camera, furniture.cameras),
+    )
     try:
         yield rooms
     finally:

@@ -1,0 +1,1 @@
+"""The room where a camera is calibrated: guided views, the result, its report and its file."""
