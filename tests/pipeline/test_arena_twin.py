@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from threading import Event
+from time import sleep
 
 import numpy as np
 import pytest
@@ -145,6 +146,70 @@ def test_a_controller_that_sleeps_is_given_up():
     assert guarded(None) == STILL
     assert "did not answer within 0.05 s" in guarded.fault
     forever.set()
+
+
+def runners(count=2, **more):
+    """Return robots side by side that drive straight on."""
+    robots = (
+        twin_robot(n, Place(0, 0.4 * n, 0), lambda: lambda _view: Twist(0.2, 0.0), **more)
+        for n in range(count)
+    )
+    return TwinArena(Scenario(tuple(robots), VIEW))
+
+
+def test_a_robot_that_lies_on_its_marker_is_stopped_and_the_rest_goes_on():
+    arena = runners()
+    list(arena.run(1.0))
+    arena.physics.overturn(0)
+    *_, last = arena.run(1.5)
+    arena.close()
+    assert [one.id for one in last.detections] == [1]
+    lying, other = last.turn.decisions
+    assert lying.told.startswith("not seen for 1.")
+    assert last.turn.commands[0] == STILL
+    assert not other.must_stop
+    assert last.twists[1].speed_mps == pytest.approx(0.2, abs=0.01)
+
+
+def test_a_robot_that_spins_is_named_and_stopped_and_the_rest_goes_on():
+    arena = runners()
+    list(arena.run(1.0))
+    arena.physics.cut(0, 0)  # its left motor; the right one drives it round
+    spinning = [moment.twists[0].turn_rate_radps for moment in arena.run(0.9)]
+    assert max(spinning) > 1.2
+    *_, last = arena.run(1.1)
+    arena.close()
+    assert last.turn.decisions[0].reasons == ("disobeys",)
+    assert "rad/s where 0.0 were wanted, for 1 s" in last.turn.decisions[0].told
+    assert abs(last.twists[0].turn_rate_radps) < 0.1
+    assert not last.turn.decisions[1].must_stop
+
+
+def test_a_robot_that_is_gone_is_stopped_and_the_rest_goes_on():
+    """It is carried away: beyond what the camera sees."""
+    arena = runners()
+    list(arena.run(1.0))
+    arena.physics.put(0, Place(30.0, 0.0, 0.0))
+    *_, last = arena.run(1.0)
+    assert "not seen for" in last.turn.decisions[0].told
+    assert not last.turn.decisions[1].must_stop
+    arena.physics.put(0, Place(0.3, -0.3, 0.0))  # and back
+    *_, back = arena.run(1.0)
+    arena.close()
+    assert not back.turn.decisions[0].must_stop
+    assert back.twists[0].speed_mps == pytest.approx(0.2, abs=0.01)
+
+
+@pytest.mark.parametrize("bad", [lambda _view: 1 / 0, lambda _view: sleep(2)])
+def test_a_bad_controller_on_board_is_named_and_stops_its_own_robot_only(bad):
+    good = twin_robot(1, Place(0, 0.5, 0), lambda: lambda _view: Twist(0.2, 0.0), on_board=True)
+    arena = TwinArena(Scenario((twin_robot(0, HERE, lambda: bad, on_board=True), good), VIEW))
+    *_, last = arena.run(1.0)
+    arena.close()
+    assert list(last.faults) == [0]
+    assert "ZeroDivisionError" in last.faults[0] or "did not answer within" in last.faults[0]
+    assert last.places[0].distance_m(HERE) < 0.01
+    assert last.places[1].x_m > 0.1
 
 
 def test_a_robot_that_dies_is_left_and_the_rest_goes_on():

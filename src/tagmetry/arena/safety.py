@@ -15,7 +15,9 @@ from tagmetry.arena.world_state import RobotState, WorldState
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 
-StopReason = Literal["stop for all", "never seen", "not seen", "outside the fence", "controller"]
+StopReason = Literal[
+    "stop for all", "never seen", "not seen", "outside the fence", "controller", "disobeys"
+]
 
 
 @dataclass(frozen=True)

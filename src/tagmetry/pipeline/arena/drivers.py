@@ -8,7 +8,9 @@ from tagmetry.arena.controllers import View
 from tagmetry.arena.drive import STILL, Twist
 from tagmetry.arena.own_motion import OwnMotion
 from tagmetry.arena.place import Place
+from tagmetry.arena.safety import StopReason
 from tagmetry.pipeline.arena.guarded import Guarded
+from tagmetry.pipeline.arena.obedience import Obedience
 
 
 class Drivers:
@@ -18,10 +20,19 @@ class Drivers:
         """Take controllers by robot's id; a robot without one gets no commands."""
         self._controllers = controllers
         self._moving = {robot_id: OwnMotion() for robot_id in controllers}
+        self._obedience = Obedience()
 
-    def judged(self, decisions: Sequence[Decision]) -> tuple[Decision, ...]:
-        """Return decisions in which a controller's fault is a reason to stop."""
-        return tuple(self._with_fault(one) for one in decisions)
+    def judged(self, decisions: Sequence[Decision], world: WorldState) -> tuple[Decision, ...]:
+        """Return decisions in which faults of controllers and robots are reasons to stop.
+
+        Args:
+            decisions: Who has to stop anyway.
+            world: All robots at the image's time.
+        """
+        for state in world:
+            if state.id in self._controllers:
+                self._obedience.watch(state, self._moving[state.id].at(state.time_s))
+        return tuple(map(self._with_fault, decisions))
 
     def commands(
         self,
@@ -69,7 +80,12 @@ class Drivers:
 
     def _with_fault(self, decision: Decision) -> Decision:
         controller = self._controllers.get(decision.robot_id)
-        if controller is None or controller.fault is None:
-            return decision
-        told = "; ".join(part for part in (decision.told, controller.fault) if part)
-        return replace(decision, reasons=(*decision.reasons, "controller"), told=told)
+        astray = self._obedience.faults.get(decision.robot_id)
+        if controller is not None and controller.fault is not None:
+            decision = _stopped(decision, "controller", controller.fault)
+        return _stopped(decision, "disobeys", astray) if astray is not None else decision
+
+
+def _stopped(decision: Decision, reason: StopReason, fault: str) -> Decision:
+    told = "; ".join(part for part in (decision.told, fault) if part)
+    return replace(decision, reasons=(*decision.reasons, reason), told=told)

@@ -81,7 +81,7 @@ class Turning:
         if step.is_bumped and step.bump is not None:
             self.stop = self.stop.pressed(step.bump.told, image_s)
         decided = decide(world, self.arena.roster.robots, self.safety, self.stop)
-        decisions = self.drivers.judged(decided)
+        decisions = self.drivers.judged(decided, step.world)
         commands = self.drivers.commands(told, world, decisions, self._sensed_s(told))
         return Turn(step, world, told, decisions, self.stop, commands)
 

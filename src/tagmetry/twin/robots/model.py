@@ -14,6 +14,7 @@ from tagmetry.twin.robots.design import RobotDesign
 TIME_STEP_S = 0.004
 _CLEARANCE_M = 0.025  # below the body
 _BODY_HEIGHT_M = 0.040
+OVERTURNED_HEIGHT_M = _CLEARANCE_M + _BODY_HEIGHT_M + 0.005  # of its own floor, let fall a little
 _CASTER_RADIUS_M = _CLEARANCE_M / 2
 _CASTER_MASS_KG = 0.01
 _CASTER_GAP_M = 0.0002  # above the floor while the body is level: the wheels carry it

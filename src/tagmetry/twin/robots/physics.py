@@ -18,7 +18,7 @@ from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.twin.robots.design import RobotDesign
-from tagmetry.twin.robots.model import TIME_STEP_S, Block, arena_xml
+from tagmetry.twin.robots.model import OVERTURNED_HEIGHT_M, TIME_STEP_S, Block, arena_xml
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,7 @@ class RobotsPhysics:
         """
         if not robots:
             raise InputError("the simulated arena needs at least one robot, got none")
-        mujoco = _mujoco()
-        self._advance = mujoco.mj_step
+        self._mujoco = mujoco = _mujoco()
         self._model: Any = mujoco.MjModel.from_xml_string(arena_xml(robots, blocks))
         self._state: Any = mujoco.MjData(self._model)
         self._patches = tuple(patches)
@@ -92,6 +91,17 @@ class RobotsPhysics:
         """Take a motor's power away for good: of one wheel (0 left, 1 right), or of both."""
         self._servo.powered[robot, slice(None) if side is None else side] = False
 
+    def put(self, robot: int, place: Place) -> None:
+        """Put one robot elsewhere, upright."""
+        half_rad = place.heading_rad / 2
+        turned_wxyz = (np.cos(half_rad), 0.0, 0.0, np.sin(half_rad))
+        self._put(robot, (place.x_m, place.y_m, 0.0), turned_wxyz)
+
+    def overturn(self, robot: int) -> None:
+        """Lay one robot on its back where it is, on the marker on its roof."""
+        x_m, y_m, _ = self._state.xpos[self._bodies[robot]]
+        self._put(robot, (x_m, y_m, OVERTURNED_HEIGHT_M), (0.0, 1.0, 0.0, 0.0))
+
     def step(self, duration_s: float) -> None:
         """Let this much time pass, in whole steps."""
         for _ in range(max(1, round(duration_s / TIME_STEP_S))):
@@ -99,7 +109,7 @@ class RobotsPhysics:
             asked_radps, limits_Nm = self._servo.asks(self.wheel_speeds_radps)
             self._state.ctrl[:] = asked_radps.ravel()
             self._model.actuator_forcerange[:] = limits_Nm.reshape(-1, 1) * [-1.0, 1.0]
-            self._advance(self._model, self._state)
+            self._mujoco.mj_step(self._model, self._state)
 
     @property
     def wheel_speeds_radps(self) -> Array:
@@ -148,6 +158,15 @@ class RobotsPhysics:
         robots = [(owners.get(int(one), -1), owners.get(int(two), -1)) for one, two in bodies]
         pairs = ((min(pair), max(pair)) for pair in robots)
         return frozenset(pair for pair in pairs if -1 < pair[0] < pair[1])
+
+    def _put(self, robot: int, at_m: Sequence[float], turned_wxyz: Sequence[float]) -> None:
+        """Put a body somewhere, at rest."""
+        body = self._bodies[robot]
+        place_at = self._model.jnt_qposadr[self._model.body_jntadr[body]]
+        speed_at = self._model.body_dofadr[body]
+        self._state.qpos[place_at : place_at + 7] = (*at_m, *turned_wxyz)
+        self._state.qvel[speed_at : speed_at + 6] = 0.0
+        self._mujoco.mj_forward(self._model, self._state)
 
     def _grip(self) -> None:
         """Give each wheel the friction of the floor below it."""
