@@ -9,6 +9,7 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import isnan
 
 import numpy as np
 
@@ -170,7 +171,7 @@ class Neighbourhood:
         order = np.lexsort((told[:, 0], who))
         for k, m, values in zip(*(one[order].tolist() for one in (who, whom, told)), strict=True):
             range_m, bearing_rad, turn_rad = values
-            if range_m == range_m:  # NaN dropped out
+            if not isnan(range_m):  # else it dropped out
                 age_s = robots[m].age_s + late_s
                 found[k].append(Neighbour(robots[m].id, range_m, bearing_rad, turn_rad, age_s))
         return [tuple(seen[: sensor.most]) for seen in found]
@@ -196,7 +197,7 @@ class Neighbourhood:
         found = [
             NearObstacle(self.obstacles[k].name, values[0], values[1])
             for k, values in zip(which.tolist(), told.tolist(), strict=True)
-            if values[0] == values[0]
+            if not isnan(values[0])
         ]
         return tuple(sorted(found, key=lambda one: one.range_m))
 
