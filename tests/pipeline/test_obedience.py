@@ -17,7 +17,7 @@ def turning(time_s: float, rate_radps: float, age_s: float = 0.0) -> RobotState:
     ("turns_radps", "wanted_radps", "excess"),
     [
         (2.0, 0.5, 1.5),
-        (0.5, 2.0, -1.5),  # weak motors
+        (0.5, 2.0, -0.5),  # weak motors
         (-2.0, 0.5, 2.0),  # the other way: all of it
         (2.0, -0.5, 2.0),
         (-2.0, -0.5, 1.5),
