@@ -6,14 +6,14 @@ import time
 from tagmetry.live.hub import Hub
 from tagmetry.live.messages import Delivery
 
-_EVERY_S = 0.5
+_EVERY_S, _SENDS_PER_S = 0.5, 500  # to all pages together
 
 
 async def tell_delivery(hub: Hub) -> None:
-    """Tell all pages how the last half second went, until this is cancelled."""
+    """Tell all pages how it went since they were told last, until this is cancelled."""
     then_s, before = time.monotonic(), hub.counts
     while True:
-        await asyncio.sleep(_EVERY_S)
+        await asyncio.sleep(max(_EVERY_S, hub.pages / _SENDS_PER_S))
         now_s, counts = time.monotonic(), hub.counts
         passed_s = now_s - then_s
         hub.give(

@@ -17,7 +17,8 @@ from tagmetry.live.vitals import Vitals
 from tagmetry.pipeline.arena_twin import Moment
 
 _WORLD_S, _HEALTH_S = 1 / 20, 0.5
-_WORLD_SENDS_PER_S, _PICTURE_SENDS_PER_S = 3000, 500  # to all pages together
+_WORLD_SENDS_PER_S, _PICTURE_SENDS_PER_S = 1500, 250  # to all pages together
+_HEALTH_SENDS_PER_S = 500
 _MOST_WIDTH_PX, _JPEG_QUALITY = 960, 75
 
 
@@ -79,7 +80,7 @@ class Feed:
     def health(self, show: Performance, late_s: float) -> None:
         """Tell how the measurement does, unless that was told just now."""
         now_s = time.monotonic()
-        if now_s - self._health_s >= _HEALTH_S:
+        if now_s - self._health_s >= max(_HEALTH_S, self.vitals.viewers / _HEALTH_SENDS_PER_S):
             self._health_s = now_s
             self._give(self.vitals.health(show, late_s))
 
