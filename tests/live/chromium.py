@@ -95,9 +95,10 @@ class Chromium:
         self.ask("Input.dispatchKeyEvent", type="keyDown", text=" ", **key)
         self.ask("Input.dispatchKeyEvent", type="keyUp", **key)
 
-    def click(self, x: float, y: float) -> None:
+    def click(self, x: float, y: float, *, is_shifted: bool = False) -> None:
+        values = {"x": x, "y": y, "button": "left", "clickCount": 1, "modifiers": 8 * is_shifted}
         for kind in ("mousePressed", "mouseReleased"):
-            self.ask("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+            self.ask("Input.dispatchMouseEvent", type=kind, **values)
 
     def photograph(self, path: Path) -> None:
         """Write what the page looks like."""

@@ -11,7 +11,7 @@ import pytest
 from chromium import Chromium, browser_path
 from live_server import running, served
 
-from tagmetry.live.messages import LiveRobot, World
+from tagmetry.live.messages import FloorErrors, LiveRobot, World
 from tagmetry.live.opening import LivePage, opened_page
 from tagmetry.live.watch import PATIENCE_S
 
@@ -132,17 +132,98 @@ def test_a_click_sends_the_selected_robot(browser: Chromium, page: LivePage) -> 
     release(browser)
     browser.run("document.querySelector('#table button').click(); true")
     browser.wait("document.getElementById('map').classList.contains('armed')")
-    box = browser.run(
-        "(() => { const b = document.getElementById('map').getBoundingClientRect();"
-        " return [b.x, b.y, b.width, b.height]; })()"
-    )
+    box = box_of(browser, "map")
     browser.click(box[0] + 0.5 * box[2], box[1] + 0.15 * box[3])
     browser.wait("document.getElementById('table').textContent.includes('sent by hand')")
-    if PICTURES:
-        photograph(browser)
     browser.wait("!document.getElementById('resume').disabled")
     browser.run("document.getElementById('resume').click(); true")
     browser.wait("!document.getElementById('table').textContent.includes('sent by hand')")
+
+
+CHARTS = "document.querySelectorAll('#charts canvas')"
+INKS = """[...document.querySelectorAll('#charts canvas')].map((one) => {
+  const { data } = one.getContext('2d').getImageData(0, 0, one.width, one.height);
+  return data.filter((value, n) => n % 4 === 3 && value > 0).length;
+})"""
+
+
+def test_charts_of_the_selected_robot_are_drawn(browser: Chromium, page: LivePage) -> None:
+    assert browser.run("document.getElementById('charts').hidden")
+    browser.run("document.querySelector('#table button').click(); true")
+    browser.wait(f"{CHARTS}.length === 6 && {INKS}.every((ink) => ink > 200)", 30)
+    captions = browser.run(
+        "[...document.querySelectorAll('#charts figcaption')].map((one) => one.textContent)"
+    )
+    assert captions[0].startswith("Speed ")
+    assert all(any(letter.isdigit() for letter in one) for one in captions)
+    assert "off the camera" in browser.run("document.getElementById('selected').textContent")
+
+
+def test_a_path_is_drawn_on_the_map_and_driven(browser: Chromium, page: LivePage) -> None:
+    sign_in(browser, page.token)
+    release(browser)
+    browser.run("document.querySelector('#table button').click(); true")
+    x, y, width, height = box_of(browser, "map")
+    for share in (0.4, 0.6):
+        browser.click(x + share * width, y + 0.2 * height, is_shifted=True)
+    text = browser.run("document.getElementById('path').value")
+    points = [[float(one) for one in point.split(",")] for point in text.split(";")]
+    assert points[0] == pytest.approx([-points[1][0], points[1][1]], abs=0.02)
+    browser.run("document.getElementById('path-send').click(); true")
+    browser.wait("document.getElementById('table').textContent.includes('on a path')")
+    if PICTURES:
+        photograph(browser)
+    browser.run("document.getElementById('halt').click(); true")
+    browser.wait("document.getElementById('table').textContent.includes('waits')")
+    browser.run("document.getElementById('resume').click(); true")
+    browser.wait("!document.getElementById('table').textContent.includes('waits')")
+
+
+@pytest.mark.parametrize(("text", "is_path"), [("0.5, -0.2; 0, 0", 1), ("0.5", 0), ("a, b", 0)])
+def test_a_path_may_be_typed(browser: Chromium, text: str, is_path: int) -> None:
+    browser.run(
+        f"(() => {{ const one = document.getElementById('path'); one.value = {json.dumps(text)};"
+        " one.dispatchEvent(new Event('input')); })()"
+    )
+    assert browser.run("document.getElementById('path').validity.valid") == bool(is_path)
+
+
+def test_a_parameter_is_set_by_its_slider(browser: Chromium, page: LivePage) -> None:
+    sign_in(browser, page.token)
+    browser.wait("document.querySelectorAll('#parameters input').length === 5")
+    browser.run(
+        "(() => { const one = [...document.querySelectorAll('#parameters label')].find((label) =>"
+        " label.textContent.startsWith('damping')).querySelector('input');"
+        " one.value = 0.8; one.dispatchEvent(new Event('change')); })()"
+    )
+    browser.wait("document.getElementById('parameters').textContent.includes('damping: 0.8')")
+    stage = page.runner._show.steered[1].parameters
+    assert {one.name: one.value for one in stage}["damping"] == pytest.approx(0.8, abs=0.01)
+    release(browser)
+
+
+def test_the_error_map_is_shown_and_told(browser: Chromium) -> None:
+    errors = tuple((0.1 * n - 1.0, 0.0, 1e-5 * n, 0.0, 1e-5) for n in range(20))
+    with served() as live:
+        live.hub.give(FloorErrors(False, 0.1, 0.09, errors))
+        browser.open(f"http://{live.host}/")
+        browser.wait("document.getElementById('errors-say')?.textContent.includes('rms')")
+        told = browser.run("document.getElementById('errors-say').textContent")
+        assert "0.190 mm at worst" in told
+        before = browser.run(MAP_PICTURE)
+        browser.run("document.getElementById('show-errors').click(); true")
+        assert browser.run(MAP_PICTURE) != before
+
+
+MAP_PICTURE = "document.getElementById('map').toDataURL()"
+
+
+def box_of(browser: Chromium, name: str) -> list[float]:
+    """Return an element's left, top, width and height."""
+    return browser.run(
+        f"(() => {{ const b = document.getElementById('{name}').getBoundingClientRect();"
+        " return [b.x, b.y, b.width, b.height]; })()"
+    )
 
 
 def photograph(browser: Chromium) -> None:

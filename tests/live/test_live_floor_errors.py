@@ -1,6 +1,8 @@
 """The error map behind the page: measured beside the arena, one at a time, and honest."""
 
-import threading
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -8,9 +10,11 @@ from live_server import eventually
 
 from tagmetry.arena import ErrorMap, GridPlace
 from tagmetry.errors import InputError
+from tagmetry.live.client.reading import parse_told
 from tagmetry.live.messages import FloorErrors, MeasureErrors, Told
 from tagmetry.live.rooms import floor_errors as room_module
-from tagmetry.live.rooms.floor_errors import floor_errors_room, told_errors
+from tagmetry.live.rooms.floor_errors import floor_errors_room, started, told_errors
+from tagmetry.live.wire import format_message
 from tagmetry.pipeline.arena_twin.ready.floor_errors import GRID, floor_errors
 
 
@@ -29,29 +33,49 @@ def test_tells_places_errors_and_deviations() -> None:
     np.testing.assert_allclose(told.errors, [(0, 0, 0, 0, 1e-4), (0.1, 0, 0, 1e-3, 2e-4)])
 
 
+def program(says: str, seconds: float = 0.0) -> "subprocess.Popen[str]":
+    """Return a program that says something after a while."""
+    lines = f"import sys, time; time.sleep({seconds}); sys.stdout.write({says!r})"
+    return subprocess.Popen([sys.executable, "-c", lines], stdout=subprocess.PIPE, text=True)
+
+
 def test_measures_one_at_a_time_and_tells_when_it_begins_and_ends(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    go, told, seeds = threading.Event(), list[Told](), list[int]()
+    told, seeds = list[Told](), list[int]()
 
-    def slow(seed: int) -> ErrorMap:
+    def started(seed: int) -> "subprocess.Popen[str]":
         seeds.append(seed)
-        go.wait(10)
-        return found()
+        return program(format_message(told_errors(found())), 1.0)
 
-    monkeypatch.setattr(room_module, "floor_errors", slow)
-    take = floor_errors_room(told.append).takers[MeasureErrors]
-    take(MeasureErrors())
+    monkeypatch.setattr(room_module, "started", started)
+    room = floor_errors_room(told.append)
+    room.takers[MeasureErrors](MeasureErrors())
     with pytest.raises(InputError, match="being measured already"):
-        take(MeasureErrors())
+        room.takers[MeasureErrors](MeasureErrors())
     assert told == [FloorErrors(True, GRID.step_m, GRID.height_m, ())]
-    go.set()
-    eventually(lambda: len(told) == 2)
+    eventually(lambda: len(told) == 2, 20)
     assert told[1] == told_errors(found())
-    eventually(lambda: not any(one.name == "floor errors" for one in threading.enumerate()))
-    take(MeasureErrors())
-    eventually(lambda: len(told) == 4)
+    time.sleep(0.1)
+    room.takers[MeasureErrors](MeasureErrors())
+    room.close()
     assert seeds == [1, 2]
+    assert told[-1] == FloorErrors(False, GRID.step_m, GRID.height_m, ())
+
+
+@pytest.mark.parametrize("says", ["", "no message", '{"type": "Refused", "why": "x"}'])
+def test_a_program_that_fails_leaves_no_map(monkeypatch: pytest.MonkeyPatch, says: str) -> None:
+    told = list[Told]()
+    monkeypatch.setattr(room_module, "started", lambda _: program(says))
+    floor_errors_room(told.append).takers[MeasureErrors](MeasureErrors())
+    eventually(lambda: len(told) == 2, 20)
+    assert told[1] == FloorErrors(False, GRID.step_m, GRID.height_m, ())
+
+
+@pytest.mark.slow
+def test_the_program_says_the_map() -> None:
+    said, _ = started(0).communicate(timeout=300)
+    assert parse_told(said) == told_errors(floor_errors(0))
 
 
 @pytest.mark.slow

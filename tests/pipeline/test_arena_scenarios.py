@@ -53,7 +53,7 @@ def test_a_formation_keeps_its_shape():
 
 def test_wanderers_explore_and_enter_no_obstacle():
     scenario = ready_scenario("wander", 8)
-    moments, summary = ran(scenario, 15.0)
+    moments, summary = ran(scenario, 20.0)
     paths = np.array([[place.xy_m for place in moment.places.values()] for moment in moments])
     near_m = [
         np.hypot(*(one.nearest_point(xy_m) - xy_m))
@@ -65,6 +65,8 @@ def test_wanderers_explore_and_enter_no_obstacle():
     reached_m = np.ptp(paths, axis=0).max(axis=1)
     assert reached_m.min() > 0.2
     assert reached_m.mean() > 0.5
+    late_m = np.hypot(*np.diff(paths[-150:], axis=0).T).sum(axis=1)
+    assert late_m.min() > 0.05  # nobody is caught, 15 s to 20 s
 
 
 def test_wanderers_start_clear_of_obstacles_however_many():

@@ -12,7 +12,7 @@ from tagmetry.arena.controllers.parameters import Parameter
 from tagmetry.arena.controllers.view import View
 from tagmetry.arena.drive import Twist
 
-_AHEAD = 0.5  # cosine of the bearing of what is in the way
+_AHEAD = 0.05  # cosine of the bearing of what the robot would come nearer to
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,13 @@ class Part:
 _KINDS = {".html": "text/html", ".js": "text/javascript", ".css": "text/css"}
 _NAMES = (
     "app.js",
+    "arena/chart.js",
+    "arena/ghosts.js",
+    "arena/history.js",
+    "arena/layers.js",
+    "arena/parameters.js",
+    "arena/path_plan.js",
+    "arena/robot_charts.js",
     "calibration_charts.js",
     "calibration_view.js",
     "camera.js",

@@ -1,4 +1,6 @@
 // The arena from above: trails, robots with headings, covariance ellipses, neighbour links.
+import { drawErrors, drawGhost, drawPlan, drawReach, drawStage } from "./arena/layers.js";
+
 const TRAIL = 150;
 const ELLIPSE_TIMES = 1000; // a standard deviation is too small to be seen
 
@@ -9,9 +11,11 @@ export class ArenaMap {
     this.trails = new Map();
     this.robots = [];
     this.selected = null;
+    this.stage = this.errors = this.ghosts = null; // messages, and where wheels say that robots are
+    this.plan = [];
     canvas.addEventListener("click", (event) => {
       const box = canvas.getBoundingClientRect();
-      onClick(...this.place(event.clientX - box.left, event.clientY - box.top), this.hit(event, box));
+      onClick(...this.place(event.clientX - box.left, event.clientY - box.top), this.hit(event, box), event.shiftKey);
     });
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
@@ -58,10 +62,23 @@ export class ArenaMap {
     const at = (x, y) => [x * k, -y * k];
     pen.strokeStyle = color("--line");
     pen.strokeRect(-this.half[0] * k, -this.half[1] * k, 2 * this.half[0] * k, 2 * this.half[1] * k);
+    const view = { pen, at, color, k };
+    if (this.errors) drawErrors(view, this.errors);
+    if (this.stage) drawStage(view, this.stage);
     this.drawBar(pen, color, k, w, h);
     this.drawTrails(pen, at);
     this.drawLinks(pen, at, color);
+    this.drawSelected(view);
+    drawPlan(view, this.plan);
     for (const one of this.robots) this.drawRobot(pen, at, color, k, one);
+  }
+
+  drawSelected(view) {
+    const one = this.robots.find((robot) => robot.id === this.selected);
+    if (!one) return;
+    if (this.stage) drawReach(view, one, this.stage.reach_m);
+    const ghost = this.ghosts?.known.get(one.id);
+    if (ghost) drawGhost(view, ghost, one.radius_m);
   }
 
   drawBar(pen, color, k, w, h) {

@@ -1,13 +1,23 @@
-"""The error map of the simulated floor, measured when an operator asks, in a thread of its own."""
+"""The error map of the simulated floor, measured when an operator asks.
 
+It is rendered and measured by a program of its own (this module, run with a seed), which says it as
+a message on its standard output: within the server it would take the robots' processor time.
+"""
+
+import subprocess
+import sys
 import threading
 from collections.abc import Callable
 
 from tagmetry.arena import ErrorMap
 from tagmetry.errors import InputError
+from tagmetry.live.client.reading import parse_told
 from tagmetry.live.messages import Asked, FloorErrors, MeasureErrors, Told
 from tagmetry.live.rooms.room import Room
+from tagmetry.live.wire import format_message
 from tagmetry.pipeline.arena_twin.ready.floor_errors import GRID, floor_errors
+
+_PATIENCE_S = 600.0
 
 
 def floor_errors_room(give: Callable[[Told], None]) -> Room:
@@ -16,7 +26,8 @@ def floor_errors_room(give: Callable[[Told], None]) -> Room:
     Args:
         give: Takes what pages are told.
     """
-    return Room(takers={MeasureErrors: _Measuring(give).take})
+    measuring = _Measuring(give)
+    return Room(takers={MeasureErrors: measuring.take}, close=measuring.close)
 
 
 class _Measuring:
@@ -25,6 +36,7 @@ class _Measuring:
     def __init__(self, give: Callable[[Told], None]) -> None:
         self._give = give
         self._thread: threading.Thread | None = None
+        self._process: subprocess.Popen[str] | None = None
         self._count = 0
 
     def take(self, _: Asked) -> None:
@@ -37,11 +49,33 @@ class _Measuring:
             raise InputError("the error map is being measured already")
         self._count += 1
         self._give(FloorErrors(True, GRID.step_m, GRID.height_m, ()))
-        self._thread = threading.Thread(target=self._run, name="floor errors", daemon=True)
+        self._process = started(self._count)
+        self._thread = threading.Thread(target=self._wait, args=(self._process,), daemon=True)
         self._thread.start()
 
-    def _run(self) -> None:
-        self._give(told_errors(floor_errors(self._count)))
+    def close(self) -> None:
+        """End what is being measured."""
+        if self._process is not None and self._thread is not None:
+            self._process.kill()
+            self._thread.join()
+
+    def _wait(self, process: "subprocess.Popen[str]") -> None:
+        try:
+            said, _ = process.communicate(timeout=_PATIENCE_S)
+            told = parse_told(said)
+        except (subprocess.TimeoutExpired, InputError):
+            process.kill()
+            told = None
+        nothing = FloorErrors(False, GRID.step_m, GRID.height_m, ())
+        self._give(told if isinstance(told, FloorErrors) else nothing)
+
+
+def started(seed: int) -> "subprocess.Popen[str]":
+    """Return the program that measures a map."""
+    command = [sys.executable, "-m", __name__, str(seed)]
+    return subprocess.Popen(  # noqa: S603 - this program itself
+        command, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True, encoding="utf-8"
+    )
 
 
 def told_errors(found: ErrorMap) -> FloorErrors:
@@ -56,3 +90,7 @@ def told_errors(found: ErrorMap) -> FloorErrors:
         )
     ]
     return FloorErrors(False, GRID.step_m, GRID.height_m, tuple(numbers))
+
+
+if __name__ == "__main__":
+    sys.stdout.write(format_message(told_errors(floor_errors(int(sys.argv[1])))))

@@ -1,4 +1,9 @@
 // The arena: map, camera, robots, and what operators ask of them.
+import { Ghosts } from "../arena/ghosts.js";
+import { History } from "../arena/history.js";
+import { Parameters } from "../arena/parameters.js";
+import { PathPlan } from "../arena/path_plan.js";
+import { RobotCharts } from "../arena/robot_charts.js";
 import { CameraView } from "../camera.js";
 import { ArenaMap } from "../map.js";
 import { RobotTable } from "../table.js";
@@ -9,11 +14,18 @@ export class ArenaRoom {
   constructor(page) {
     this.id = "arena";
     this.page = page;
-    this.selected = this.world = this.recording = null;
-    this.map = new ArenaMap($("map"), (x, y, robot) => this.point(x, y, robot));
+    this.selected = this.world = this.recording = this.errors = null;
+    this.map = new ArenaMap($("map"), (...where) => this.point(...where));
+    this.map.ghosts = this.ghosts = new Ghosts();
+    this.history = new History();
+    this.charts = new RobotCharts($("charts"));
+    this.parameters = new Parameters($("parameters"), $("parameters-hint"), page);
+    this.plan = new PathPlan($("path"), () => this.showPlan());
     this.camera = new CameraView($("camera"));
     this.table = new RobotTable($("table"), (id) => this.select(id));
     this.listen();
+    this.listenForErrors();
+    this.listenForPaths();
   }
 
   listen() {
@@ -26,8 +38,31 @@ export class ArenaRoom {
       event.preventDefault();
       page.send("ChooseScenario", { name: $("scenario").value, robots: Number($("robots").value) });
     });
+    $("halt").addEventListener("click", () => page.send("Halt", { robot_id: this.selected }));
     addEventListener("keydown", (event) => {
       if (event.code === "Escape" && this.isOpen) this.select(null);
+    });
+  }
+
+  listenForErrors() {
+    $("measure-errors").addEventListener("click", () => {
+      $("show-errors").checked = true;
+      this.page.send("MeasureErrors");
+    });
+    $("show-errors").addEventListener("change", () => this.showErrors());
+  }
+
+  listenForPaths() {
+    $("path-form").addEventListener("submit", (event) => {
+      event.preventDefault();
+      if (!this.plan.points?.length) return;
+      this.page.send("FollowPath", { robot_id: this.selected, points_m: this.plan.points });
+      this.plan.clear();
+    });
+    $("path-clear").addEventListener("click", () => this.plan.clear());
+    $("path-draw").addEventListener("click", () => {
+      this.isDrawing = !this.isDrawing;
+      $("path-draw").setAttribute("aria-pressed", String(this.isDrawing));
     });
   }
 
@@ -37,6 +72,7 @@ export class ArenaRoom {
   welcome(message) {
     this.map.half = message.floor_m;
     this.startAnew();
+    this.showErrors();
     $("scenario").replaceChildren(...message.scenarios.map((name) => new Option(name, name)));
   }
 
@@ -45,6 +81,8 @@ export class ArenaRoom {
   take(message) {
     if (message.type === "World") this.showWorld(message);
     if (message.type === "Picture" && this.isOpen) return this.showPicture(message);
+    if (message.type === "Stage") this.showStage(message);
+    if (message.type === "FloorErrors") this.takeErrors(message);
     if (message.type === "Health") this.showRecording(message.recording);
   }
 
@@ -52,11 +90,41 @@ export class ArenaRoom {
     this.map.clear();
     this.camera.clear();
     this.table.clear();
+    this.ghosts.clear();
+    this.history.clear();
+  }
+
+  showStage(message) {
+    this.map.stage = message;
+    if (document.activeElement !== $("scenario")) $("scenario").value = message.scenario;
+    this.parameters.take(message.parameters);
+  }
+
+  takeErrors(message) {
+    this.errors = message;
+    this.showErrors();
+  }
+
+  showErrors() {
+    const known = this.errors?.errors ?? [];
+    $("measure-errors").disabled = !this.page.commands || Boolean(this.errors?.is_measuring);
+    $("show-errors").disabled = !known.length;
+    this.map.errors = $("show-errors").checked && known.length ? this.errors : null;
+    $("errors-say").textContent = this.errors ? errorsTold(this.errors) : "";
+    this.map.draw();
+  }
+
+  showPlan() {
+    this.map.plan = this.plan.points ?? [];
+    this.map.draw();
   }
 
   showWorld(message) {
     if (this.world && message.time_s < this.world.time_s) this.startAnew();
     this.world = message;
+    this.ghosts.take(message.robots);
+    const isTime = this.history.take(message, this.ghosts);
+    if (isTime && this.isOpen) this.charts.draw(this.history, this.selected);
     this.map.take(message);
     this.table.take(message, this.selected);
     $("map-hint").textContent = message.missing.length
@@ -79,9 +147,10 @@ export class ArenaRoom {
     $("record").setAttribute("aria-pressed", String(Boolean(recording)));
   }
 
-  point(x, y, robot) {
-    if (robot !== null) return this.select(robot);
+  point(x, y, robot, isShifted) {
     const [a, b] = this.map.half, isOnFloor = Math.abs(x) <= a && Math.abs(y) <= b;
+    if (isShifted || this.isDrawing) return isOnFloor && this.plan.add(x, y);
+    if (robot !== null) return this.select(robot);
     if (this.selected !== null && this.page.commands && isOnFloor) {
       this.page.send("GoTo", { robot_id: this.selected, x_m: x, y_m: y });
     }
@@ -90,6 +159,7 @@ export class ArenaRoom {
   select(id) {
     this.selected = this.selected === id ? null : id;
     this.map.selected = this.selected;
+    this.charts.draw(this.history, this.selected);
     this.showSelected();
   }
 
@@ -97,16 +167,27 @@ export class ArenaRoom {
     const one = this.world?.robots.find((robot) => robot.id === this.selected);
     const { commands } = this.page;
     $("map").classList.toggle("armed", Boolean(one) && commands);
+    for (const id of ["halt", "path-send"]) $(id).disabled = !commands || !one;
     $("resume").disabled = !commands || !one || one.task === "own";
-    $("selected").textContent = one ? told(one, commands)
+    $("selected").textContent = one ? told(one, commands, this.ghosts.off(one))
       : "Select a robot on the map or in the table; then click where it shall go.";
   }
 }
 
-function told(one, commands) {
-  const wheels = one.odometry
-    ? `; its wheels say ${one.odometry.map((v) => v.toFixed(3)).join(", ")}` : "";
+function told(one, commands, off) {
+  const wheels = off ? `; its wheels are ${(1000 * off.off_m).toFixed(1)} mm and `
+    + `${(off.turned_rad * 180 / Math.PI).toFixed(1)}° off the camera` : "";
   const where = `${one.x_m.toFixed(3)}, ${one.y_m.toFixed(3)} m`;
   return `${one.name} at ${where}, ${one.neighbours.length} neighbours${wheels}. ` +
-    (commands ? "Click on the map where it shall go." : "");
+    (commands ? "Click on the map where it shall go; with shift, through which points." : "");
+}
+
+function errorsTold({ is_measuring: isMeasuring, errors, height_m: height }) {
+  if (isMeasuring) return "The floor is being measured: some seconds…";
+  if (!errors.length) return "The floor could not be measured; try again.";
+  const radial = errors.map(([, , x, y]) => Math.hypot(x, y)), mm = (value) => (1000 * value).toFixed(3);
+  const rms = (values) => Math.sqrt(values.reduce((sum, one) => sum + one * one, 0) / values.length);
+  return `${errors.length} places, ${(100 * height).toFixed(0)} cm above the floor: radial error `
+    + `${mm(rms(radial))} mm rms, ${mm(Math.max(...radial))} mm at worst; `
+    + `±${mm(rms(errors.map((one) => one[4])))} mm stated`;
 }
