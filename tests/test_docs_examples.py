@@ -84,7 +84,6 @@ SAID = {
     "arena.sh": "camera at x",
     "arena_state.py": "robot 1 knows of [2]",
     "arena_stability.sh": "of air left",
-    "arena_stability.sh": "of air left",
     "arena_twin.sh": "m driven, places within",
     "bank.py": "at focus 53: fx 1005.",
     "calibrate.py": "8 views leave projections uncertain",
@@ -105,6 +104,7 @@ SAID = {
     "pose.py": "tag36h11 8: +0.2000 ",
     "read_results.py": "photo.png 7 ",
     "recording.py": "photo.png [7, 8]",
+    "recording_moment.py": '{"volts":7.',
     "robot_position.py": "camera at [ 4.15",
     "track.py": "0.20 s: 2 at",
     "twin_arena.py": "true distance 200",
@@ -114,7 +114,6 @@ SAID = {
 }
 AFTER = {"read_results.py": "detect.sh", "floor_positions.py": "detect_video.sh"}
 NEEDS = {
-    "arena_stability.sh": ["matplotlib"],
     "arena_stability.sh": ["matplotlib"],
     "arena_twin.sh": ["matplotlib", "mujoco"],
     "twin_arena.py": ["mujoco"],
@@ -127,6 +126,7 @@ NEEDS = {
     "locate.sh": ["matplotlib"],
     "plan.sh": ["matplotlib"],
     "recording.py": ["mcap"],
+    "recording_moment.py": ["mcap"],
     "track.py": ["av"],
     "track.sh": ["av"],
     **{name: ["reportlab"] for name in NAMES if name.startswith("print_")},
