@@ -11,6 +11,7 @@ DRAWN = (
     "seed001_figure12", "seed001_figure13a", "seed001_figure13b", "seed001_figure14",
     "seed001_figure9_paper", "seed001_figure9_tagmetry", "seed002_figure17", "seed002_sights",
     "seed003_figure12", "seed004_figure12", "seed004_figure7", "seed004_figure8",
+    "swarm_curves", "swarm_aggregate_100", "swarm_disperse_100", "swarm_formation_24",
 )  # fmt: skip
 DPI = 80
 

@@ -181,8 +181,12 @@ def test_a_delay_in_images(delay_s, whole, rest_s):
     [
         (lambda: setting(-0.1), "delay_s must be 0 to 2, got"),
         (lambda: setting(float("nan")), "delay_s must be 0 to 2, got"),
-        (lambda: FollowingSetting(image_s=0.0), "image_s must be 0.001 to 1, got"),
+        (lambda: FollowingSetting(image_s=0.0), "image_s must be 0.004 to 1, got"),
         (lambda: FollowingSetting(place_share=1.5), "place_share must be 0.001 to 1, got"),
+        (
+            lambda: stability(FollowingSetting(delay_s=2.0, image_s=0.01)),
+            "at most 100 images, got 200",
+        ),
         (lambda: setting(hold_s=0.0), "hold_s must be 0.001 to 100, got"),
         (lambda: FollowingSetting(Spring(damping=0.0)), "spring's damping must be above 0"),
         (lambda: stability(setting(), diameter_m=0.2), "touch at a distance of 0.2 m"),

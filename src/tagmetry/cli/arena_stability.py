@@ -29,7 +29,7 @@ def stability(  # noqa: PLR0913 (each argument is an option)
     untold_ms: Annotated[
         float, typer.Option(min=0.0, max=2000.0, help="By what the true delay is longer.")
     ] = 0.0,
-    image_rate: Annotated[float, typer.Option(min=1.0, max=1000.0, help="Images per second.")] = 30,
+    image_rate: Annotated[float, typer.Option(min=1.0, max=250.0, help="Images per second.")] = 30,
     motor_ms: Annotated[float, typer.Option(help="How soon its wheels follow a command.")] = 50.0,
     hold_ms: Annotated[
         float | None, typer.Option(help="Of an integral in their servo, if there is one.")

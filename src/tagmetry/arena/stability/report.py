@@ -17,6 +17,7 @@ from tagmetry.errors import InputError
 from tagmetry.geometry import Array
 
 _WATCHED_S = 5.0  # of a step
+_MOST_IMAGES = 100  # that a delay may span: as many states has the loop
 _SURE = 3.0  # standard deviations
 
 
@@ -138,6 +139,9 @@ def _gap_sd_m(loop: Loop, place_sd_m: float) -> float:
 
 
 def _check(setting: FollowingSetting, place_sd_m: float, diameter_m: float) -> None:
+    spanned = (setting.delay_s + setting.untold_s) / setting.image_s
+    if spanned > _MOST_IMAGES:
+        raise InputError(f"a delay spans at most {_MOST_IMAGES} images, got {spanned:.0f}")
     if not 0 <= place_sd_m < 1:
         raise InputError(f"place_sd_m must be 0 to 1 m, got {place_sd_m}")
     if not 0 < diameter_m < setting.spring.length_m:

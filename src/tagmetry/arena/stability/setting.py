@@ -8,7 +8,7 @@ from tagmetry.errors import InputError
 _BOUNDS = {
     "delay_s": (0.0, 2.0),
     "untold_s": (0.0, 2.0),
-    "image_s": (1e-3, 1.0),
+    "image_s": (4e-3, 1.0),
     "motor_s": (1e-3, 1.0),
     "told_motor_s": (1e-3, 1.0),
     "place_share": (1e-3, 1.0),
