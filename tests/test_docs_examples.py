@@ -116,6 +116,7 @@ AFTER = {"read_results.py": "detect.sh", "floor_positions.py": "detect_video.sh"
 NEEDS = {
     "arena_stability.sh": ["matplotlib"],
     "arena_twin.sh": ["matplotlib", "mujoco"],
+    "arena_twin_processes.sh": ["mujoco"],
     "twin_arena.py": ["mujoco"],
     "calibrate.sh": ["matplotlib"],
     "compare.sh": ["matplotlib"],
@@ -247,7 +248,9 @@ def test_example_runs(name: str, shelf: Path, tmp_path: Path) -> None:
     shutil.copy(SCENES / "desk.yaml", tmp_path)
     shutil.copy(MAPS / "hall.yaml", tmp_path)
     shutil.copytree(shelf / "boards", tmp_path / "boards")
-    shutil.copy(EXAMPLES / "keep_away.py", tmp_path)
+    for controller in ("keep_away.py", "spread.py"):
+        if controller != name:
+            shutil.copy(EXAMPLES / controller, tmp_path)
     if name.startswith("arena"):
         write_arena(tmp_path)
     write_ways(tmp_path)

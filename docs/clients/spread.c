@@ -19,7 +19,7 @@ static twist controller(const tm_robot *robot) {
     double x_m = 0, y_m = 0;
     for (int i = 0; i < robot->neighbours.count; i++) {
         double bearing_rad = robot->seen[i].bearing * 1e-4;
-        double push_m = fmax(0.45 - robot->seen[i].range_mm / 1000.0, 0.0);
+        double push_m = fmax(0.8 - robot->seen[i].range_mm / 1000.0, 0.0);
         x_m -= push_m * cos(bearing_rad);
         y_m -= push_m * sin(bearing_rad);
     }

@@ -1,5 +1,5 @@
-"""A controller: leave those that are nearer than 0.45 m; docs/clients/spread.c does the same."""
+"""A controller: leave those that are nearer than 0.8 m; docs/clients/spread.c does the same."""
 
 from tagmetry.arena.controllers import Disperse
 
-control = Disperse(0.45)
+control = Disperse(0.8)

@@ -84,7 +84,7 @@ def test_robots_in_c_take_the_same_paths_as_robots_in_python():
     c = ran(in_c(scenario, (0, 1, 2, 3)), 2.5, processes=True)
     driven_m = [python[-1].places[n].distance_m(python[0].places[n]) for n in range(4)]
     assert min(driven_m) > 0.05
-    assert apart_mm(python, c) < 0.5
+    assert apart_mm(python, c) < 0.3
     for robot in range(4):
         assert c[-1].odometry[robot].x_m == pytest.approx(python[-1].odometry[robot].x_m, abs=1e-3)
 
