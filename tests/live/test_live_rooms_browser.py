@@ -12,7 +12,7 @@ from live_server import Served, served
 from tagmetry.live.rooms.every import Furniture
 
 PICTURES = os.environ.get("LIVE_PICTURES")  # a folder; for the docs
-SLOW_S = 60.0  # pictures are rendered, on a busy computer
+SLOW_S = 240.0  # pictures are rendered, on a busy computer
 PHONE, DESK = (390, 844), (1280, 1150)
 
 
@@ -130,3 +130,16 @@ def test_the_space_bar_stops_in_every_room(window: Chromium, live: Served) -> No
     window.wait("true")
     asked = [type(one).__name__ for _, one in live.runner.asked[before:]]
     assert "Stop" in asked
+
+
+def test_the_lens_is_driven_to_a_marker(window: Chromium, live: Served) -> None:
+    enter(window, live, "lens")
+    says = "document.getElementById('lens-say').textContent"
+    assert "The lens rests" in window.run(says)
+    press(window, "lens-begin")
+    window.wait(f"{says}.includes('measured after')", SLOW_S)
+    window.wait("document.getElementById('lens-picture').dataset.corners === '4'", SLOW_S)
+    window.wait("!document.getElementById('lens-begin').disabled", SLOW_S)
+    window.wait("document.querySelectorAll('#lens-bank tr').length === 31", SLOW_S)
+    photograph(window, "lens")
+    fits_a_phone(window, "lens")

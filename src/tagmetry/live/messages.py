@@ -14,6 +14,7 @@ from tagmetry.live.rooms.calibrate.messages import (
     SaveCalibration,
     StartCalibration,
 )
+from tagmetry.live.rooms.lens.messages import LensPicture, LensTrace, StartLens, StopLens
 
 Sender = Literal["server", "page"]
 Role = Literal["viewer", "operator"]
@@ -422,6 +423,8 @@ Told = (
     | Refused
     | CalibrationPicture
     | CalibrationState
+    | LensPicture
+    | LensTrace
 )
 Asked = (
     Beat
@@ -440,6 +443,8 @@ Asked = (
     | StartCalibration
     | EndCalibration
     | SaveCalibration
+    | StartLens
+    | StopLens
 )
 
 # who sends one of these drives from then on
@@ -477,6 +482,8 @@ CONTRACT = (
     Rule(Refused, "server", "viewer"),
     Rule(CalibrationPicture, "server", "viewer"),
     Rule(CalibrationState, "server", "viewer"),
+    Rule(LensPicture, "server", "viewer"),
+    Rule(LensTrace, "server", "viewer"),
     Rule(Beat, "page", "operator"),
     Rule(Seen, "page", "viewer"),
     Rule(Stop, "page", "viewer"),  # stopping is always safe
@@ -493,4 +500,6 @@ CONTRACT = (
     Rule(StartCalibration, "page", "operator"),
     Rule(EndCalibration, "page", "operator"),
     Rule(SaveCalibration, "page", "operator"),
+    Rule(StartLens, "page", "operator"),
+    Rule(StopLens, "page", "operator"),
 )

@@ -38,6 +38,7 @@ ROUTES: dict[str, tuple[str, Role | None]] = {  # path: method and role; None: a
     "/print/sheet.pdf": ("GET", "viewer"),
     "/print/sheet.svg": ("GET", "viewer"),
     "/calibrate/report": ("GET", "viewer"),
+    "/lens/bank": ("GET", "viewer"),
     "/live": ("WEBSOCKET", "viewer"),
 }
 

@@ -13,6 +13,7 @@ from pydantic_core import from_json, to_json
 from tagmetry.errors import InputError
 from tagmetry.live.messages import CONTRACT, Asked, Picture, Role, Rule, Told
 from tagmetry.live.rooms.calibrate.messages import CalibrationPicture
+from tagmetry.live.rooms.lens.messages import LensPicture
 
 MOST_BYTES = 1024  # of what a page says
 _LENGTH_BYTES = 4
@@ -22,7 +23,7 @@ _RULES = {rule.name: rule for rule in CONTRACT}
 
 def packed(message: Told) -> str | bytes:
     """Return a message as it is sent: JSON, and a picture behind it where there is one."""
-    if not isinstance(message, Picture | CalibrationPicture):
+    if not isinstance(message, Picture | CalibrationPicture | LensPicture):
         return format_message(message)
     return joined_picture(format_message(message).encode(), message.jpeg)
 

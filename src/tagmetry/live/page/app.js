@@ -7,6 +7,7 @@ import { Rooms } from "./rooms.js";
 import { ArenaRoom } from "./rooms/arena.js";
 import { CalibrateRoom } from "./rooms/calibrate.js";
 import { HealthRoom } from "./rooms/health.js";
+import { LensRoom } from "./rooms/lens.js";
 import { PrintRoom } from "./rooms/print.js";
 import { RecordingsRoom } from "./rooms/recordings.js";
 import { watchStop } from "./stop.js";
@@ -26,6 +27,7 @@ const rooms = new Rooms([
   new ArenaRoom(page),
   new RecordingsRoom(page),
   new CalibrateRoom(page),
+  new LensRoom(page),
   new PrintRoom(),
   new HealthRoom(),
 ]);

@@ -285,6 +285,50 @@ export interface CalibrationState {
   saved?: string;
 }
 
+/** The newest image. */
+export interface LensPicture {
+  type: "LensPicture";
+  /** Of the picture as it is sent. */
+  width_px: number;
+  /** Of the picture as it is sent. */
+  height_px: number;
+  /** Of the marker; empty where it was not seen. */
+  corners_px: [number, number][];
+  /** The picture's file; it goes behind the JSON of the others. */
+  jpeg: Blob;
+}
+
+/** One image. */
+export interface LensPoint {
+  /** When it was taken, in the camera's clock. */
+  time_s: number;
+  /** In effect for it. */
+  zoom_percent: number;
+  /** In effect for it, the camera's own unit. */
+  focus: number;
+  /** Of the marker; null where it was not seen. */
+  depth_m: number;
+  /** Its standard deviation. */
+  depth_sd_m: number;
+  /** The depth as the simulation has it. */
+  true_m: number;
+}
+
+/** What the lens has done so far. */
+export interface LensTrace {
+  type: "LensTrace";
+  /** Of the newest image. */
+  phase: "preparing" | "scan" | "iterate" | "average" | "track" | "reacquire" | "ended";
+  /** The newest images, the oldest first. */
+  points: LensPoint[];
+  /** Since the beginning. */
+  images: number;
+  /** When the first final measurement was there; null before. */
+  converged_s: number;
+  /** Why there is no measurement, or why it ended; empty otherwise. */
+  why: string;
+}
+
 /** The page that drives is open and looked at; without it for 300 ms, all robots stop. */
 export interface Beat {
   type: "Beat";
@@ -397,6 +441,22 @@ export interface SaveCalibration {
   name: string;
 }
 
+/** Look for a simulated 10 mm marker and measure it. */
+export interface StartLens {
+  type: "StartLens";
+  /** Where it stands, or about where it moves. */
+  depth_m: number;
+  /** How far it is turned about its upright axis. */
+  turn_deg: number;
+  /** It moves to and fro, and is followed. */
+  tracks: boolean;
+}
+
+/** Leave the lens where it is. */
+export interface StopLens {
+  type: "StopLens";
+}
+
 export type Told =
   | Welcome
   | World
@@ -407,7 +467,9 @@ export type Told =
   | FloorErrors
   | Refused
   | CalibrationPicture
-  | CalibrationState;
+  | CalibrationState
+  | LensPicture
+  | LensTrace;
 
 export type Asked =
   | Beat
@@ -425,4 +487,6 @@ export type Asked =
   | StopRecording
   | StartCalibration
   | EndCalibration
-  | SaveCalibration;
+  | SaveCalibration
+  | StartLens
+  | StopLens;

@@ -8,6 +8,7 @@ from pathlib import Path
 from tagmetry.live.messages import Told
 from tagmetry.live.rooms.calibrate.room import calibrate_room
 from tagmetry.live.rooms.floor_errors import floor_errors_room
+from tagmetry.live.rooms.lens.room import lens_room
 from tagmetry.live.rooms.printing import printing_room
 from tagmetry.live.rooms.recordings import recordings_room
 from tagmetry.live.rooms.room import Room
@@ -43,6 +44,7 @@ def opened_rooms(
         printing_room(),
         floor_errors_room(give),
         calibrate_room(give, furniture.camera, furniture.cameras),
+        lens_room(give),
     )
     try:
         yield rooms

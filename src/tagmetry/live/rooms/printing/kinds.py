@@ -116,7 +116,7 @@ KINDS = MappingProxyType(
         ),
         "charuco": Kind(
             "ChArUco board",
-            {"family": "5x5_250", **_BOARD, "square": "30mm", "size": "22mm"},
+            {"family": "5x5_100", **_BOARD, "square": "30mm", "size": "22mm"},
             _charuco,
         ),
         "chessboard": Kind(

@@ -1,0 +1,62 @@
+"""The lens room: starts and stops for operators; everybody may watch."""
+
+import asyncio
+from collections.abc import Callable
+from typing import cast
+
+from fastapi import Request, Response
+from fastapi.responses import JSONResponse
+
+from tagmetry.errors import InputError
+from tagmetry.live.messages import Asked, Told
+from tagmetry.live.rooms.lens.bank import bank_table
+from tagmetry.live.rooms.lens.drive import Drive
+from tagmetry.live.rooms.lens.messages import StartLens, StopLens
+from tagmetry.live.rooms.lens.scene import checked
+from tagmetry.live.rooms.room import Room
+
+
+def lens_room(give: Callable[[Told], None]) -> Room:
+    """Return the room.
+
+    Args:
+        give: Takes every message for the pages, from any thread.
+    """
+    desk = _Desk(give)
+    return Room(
+        answers={"/lens/bank": desk.bank},
+        takers={StartLens: desk.start, StopLens: desk.stop},
+        close=desk.close,
+    )
+
+
+class _Desk:
+    """Knows the one drive that runs."""
+
+    def __init__(self, give: Callable[[Told], None]) -> None:
+        self._give = give
+        self._drive: Drive | None = None
+        self._turn = asyncio.Lock()
+
+    def start(self, asked: Asked) -> None:
+        """Look for the marker."""
+        wanted = checked(cast("StartLens", asked))
+        if self._drive is not None and self._drive.is_running:
+            raise InputError("the lens is being driven already; stop it first")
+        self._drive = Drive(wanted, self._give)
+
+    def stop(self, _: Asked) -> None:
+        """Stop where it is."""
+        if self._drive is None or not self._drive.is_running:
+            raise InputError("the lens is not being driven")
+        self._drive.end()
+
+    async def bank(self, _: Request) -> Response:
+        """Return the calibrations; the first time they are solved, which takes seconds."""
+        async with self._turn:
+            return JSONResponse(await asyncio.to_thread(bank_table))
+
+    def close(self) -> None:
+        """End what runs."""
+        if self._drive is not None:
+            self._drive.close()
