@@ -1,7 +1,7 @@
 // What the driven lens does over time, and the curve that it is driven along.
 import { prepared } from "./canvas.js";
 
-const LEFT = 54, EDGE = 8;
+const LEFT = 76, EDGE = 8;
 
 // Draws series of {x, y, sd, color, dashed}; y may be null where nothing was measured.
 export function drawSeries(canvas, series, unit, { log = false } = {}) {

@@ -97,7 +97,7 @@ function said(trace) {
   const last = trace.points.findLast((one) => one.depth_m !== null);
   const depth = last ? ` ${(1000 * last.depth_m).toFixed(2)} ± ${(1000 * last.depth_sd_m).toFixed(2)} mm` : "";
   const done = trace.converged_s === null ? "" : `, measured after ${trace.converged_s.toFixed(2)} s`;
-  return `${PHASES[trace.phase]}: image ${trace.images}${depth}${done}${trace.why ? `; ${trace.why}` : ""}.`;
+  return `${PHASES[trace.phase]}: image ${trace.images}${depth && ","}${depth}${done}${trace.why ? `; ${trace.why}` : ""}.`;
 }
 
 function drawPicture(canvas, image, picture) {
