@@ -56,7 +56,6 @@ HELD = (  # where a chessboard is held before a webcam: metres, degrees about x 
 WRITTEN = {
     "arena.sh": ("lab.world.yaml", "states.jsonl"),
     "arena_stability.sh": ("stability.png",),
-    "arena_stability.sh": ("stability.png",),
     "arena_twin.sh": ("ways.png",),
     "bank.py": ("bank.yaml",),
     "calibrate.py": ("webcam.yaml",),
@@ -248,9 +247,8 @@ def test_example_runs(name: str, shelf: Path, tmp_path: Path) -> None:
     shutil.copy(SCENES / "desk.yaml", tmp_path)
     shutil.copy(MAPS / "hall.yaml", tmp_path)
     shutil.copytree(shelf / "boards", tmp_path / "boards")
-    for controller in ("keep_away.py", "spread.py"):
-        if controller != name:
-            shutil.copy(EXAMPLES / controller, tmp_path)
+    shutil.copy(EXAMPLES / "keep_away.py", tmp_path)
+    shutil.copy(EXAMPLES / "spread.py", tmp_path)
     if name.startswith("arena"):
         write_arena(tmp_path)
     write_ways(tmp_path)

@@ -33,15 +33,15 @@ static twist controller(const tm_robot *robot) {
 
 static void tell(tm_robot *robot, int host, const long long counts[2]) {
     static long long before[2];
-    static uint64_t told_us;
+    static uint64_t next_us;
     static tm_odometry wheels; /* where the wheels say it is, from where it was switched on */
     uint64_t now_us = tm_now_us();
-    if (told_us && now_us - told_us < 20000) return;
+    if (now_us < next_us) return;
     double m_per_count = 2 * PI * WHEEL_RADIUS_M / COUNTS_PER_TURN;
     double left_m = m_per_count * (double)(counts[0] - before[0]);
     double right_m = m_per_count * (double)(counts[1] - before[1]);
-    double heading_rad = wheels.heading_rad + (right_m - left_m) / TRACK_M / 2, step_s = 1;
-    if (told_us) step_s = (double)(now_us - told_us) / 1e6;
+    double heading_rad = wheels.heading_rad + (right_m - left_m) / TRACK_M / 2;
+    double step_s = next_us ? (double)(now_us + 20000 - next_us) / 1e6 : 1;
     wheels.measured_us = robot->is_linked ? tm_host_us(robot, now_us) : 0;
     wheels.x_m += (float)((left_m + right_m) / 2 * cos(heading_rad));
     wheels.y_m += (float)((left_m + right_m) / 2 * sin(heading_rad));
@@ -49,7 +49,7 @@ static void tell(tm_robot *robot, int host, const long long counts[2]) {
     wheels.heading_rad = (float)remainder(heading_rad, 2 * PI);
     wheels.forward_mps = (float)((left_m + right_m) / 2 / step_s);
     wheels.turn_radps = (float)((right_m - left_m) / TRACK_M / step_s);
-    before[0] = counts[0], before[1] = counts[1], told_us = now_us;
+    before[0] = counts[0], before[1] = counts[1], next_us = now_us + 20000;
     tm_send(robot, host, TM_ODOMETRY, &wheels, sizeof wheels);
 }
 
