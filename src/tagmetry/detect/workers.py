@@ -1,6 +1,5 @@
 """Threads that stand by: what compiled loops do, which let go of the interpreter, is shared out."""
 
-import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
@@ -16,7 +15,7 @@ def at_once(tasks: Sequence[Callable[[], A]]) -> list[A]:
     """Return the results of tasks, which are done at the same time as far as threads are free.
 
     The first is done in this thread, and so is any other that no thread has begun by then: nothing
-    waits for work that is only queued.
+    waits for work that is only queued, even where a fork left the threads behind.
     """
     others = [(task, _pool().submit(task)) for task in tasks[1:]]
     first = [task() for task in tasks[:1]]
@@ -34,8 +33,4 @@ def both(one: Callable[[], A], other: Callable[[], B]) -> tuple[A, B]:
 
 @cache
 def _pool() -> ThreadPoolExecutor:
-    return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="detect")
-
-
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_pool.cache_clear)  # threads do not outlive a fork
+    return ThreadPoolExecutor(cv2.getNumberOfCPUs(), thread_name_prefix="detect")

@@ -1,5 +1,6 @@
 """Work that is shared out among threads: order, errors, no waiting for what is only queued."""
 
+import os
 import threading
 from collections.abc import Iterator
 from functools import partial
@@ -39,6 +40,17 @@ def test_work_within_work_does_not_wait_for_itself() -> None:
     """Every thread of the pool shares out again: none is left to do it, so it is done at once."""
     inner = partial(at_once, [partial(sum, range(k)) for k in range(8)])
     assert at_once([inner] * 64) == [inner()] * 64
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_after_a_fork_nothing_waits_for_threads_that_are_gone() -> None:
+    tasks = [partial(pow, 2, k) for k in range(8)]
+    wanted = at_once(tasks)
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if at_once(tasks) == wanted else 1)
+    assert os.waitpid(child, 0)[1] == 0
 
 
 def test_a_tracker_reports_the_same_with_any_number_of_threads() -> None:
