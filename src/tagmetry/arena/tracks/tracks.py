@@ -121,7 +121,7 @@ class Tracks:
         if time_s > self._time_s:
             table = table.moved(self.motion, time_s - self._time_s)
         rows = np.flatnonzero(table.has_track)
-        states = [self._state(table, row, time_s) for row in rows.tolist()]
+        states = self._states(table, rows, time_s)
         return WorldState(time_s, tuple(sorted(states, key=lambda one: one.id)))
 
     def _move_to(self, time_s: float) -> None:
@@ -203,23 +203,15 @@ class Tracks:
         robots = [self.roster.robots[row] for row in rows.tolist()]
         return [TrackEvent(kind, one.id, time_s, f"{one.name} {words[kind]}") for one in robots]
 
-    def _state(self, table: TrackTable, row: int, time_s: float) -> RobotState:
-        robot = self.roster.robots[row]
-        covariance = table.covariances[row].copy()
-        covariance[:3, :3] += table.common[row]
-        age_s = time_s - float(table.seen_s[row])
-        is_seen = table.seen_s[row] == self._time_s
-        x_m, y_m, heading, speed, rate = table.means[row].tolist()
-        return RobotState(
-            robot.id,
-            robot.name,
-            x_m,
-            y_m,
-            heading,
-            speed,
-            rate,
-            covariance,
-            age_s,
-            bool(is_seen),
-            time_s,
-        )
+    def _states(self, table: TrackTable, rows: IntArray, time_s: float) -> list[RobotState]:
+        """Return the states of some robots at the table's time."""
+        covariances = table.covariances[rows]
+        covariances[:, :3, :3] += table.common[rows]
+        is_seen = (table.seen_s[rows] == self._time_s).tolist()
+        ages_s = (time_s - table.seen_s[rows]).tolist()
+        robots = [self.roster.robots[row] for row in rows.tolist()]
+        of_each = zip(robots, table.means[rows].tolist(), covariances, ages_s, is_seen, strict=True)
+        return [
+            RobotState(robot.id, robot.name, x, y, heading, speed, rate, own, age_s, seen, time_s)
+            for robot, (x, y, heading, speed, rate), own, age_s, seen in of_each
+        ]

@@ -14,6 +14,7 @@ the same idea along the border of tags.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import cv2
 import numpy as np
@@ -57,7 +58,7 @@ class Picture:
         """Cells along a side of the square."""
         return len(self.cells) - 2 * self.margin_cells
 
-    @property
+    @cached_property
     def ink(self) -> Array:
         """The cells that are modelled, 1 is white; two rings of them are not the marker's own."""
         return printed(self.cells) if self.quiet_zone else self.cells.astype(np.float64)

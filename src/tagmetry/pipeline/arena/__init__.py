@@ -5,6 +5,7 @@ from tagmetry.pipeline.arena.latency import Latency
 from tagmetry.pipeline.arena.measurement import ArenaMeasurement, ArenaResult, Beside
 from tagmetry.pipeline.arena.posted import Posted
 from tagmetry.pipeline.arena.run import run_arena
+from tagmetry.pipeline.arena.stage_times import StageTimes
 from tagmetry.pipeline.arena.taker import Taker
 from tagmetry.pipeline.arena.turning import Turn, Turning
 
@@ -14,6 +15,7 @@ __all__ = [
     "Beside",
     "Latency",
     "Posted",
+    "StageTimes",
     "Taker",
     "Turn",
     "Turning",

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from tagmetry.arena import Arena, ArenaStep, Decision, StopForAll, Told, WorldState
@@ -15,6 +15,7 @@ from tagmetry.files.arena import ArenaSetup, ArenaWorld
 from tagmetry.files.text import named_errors
 from tagmetry.pipeline.arena.drivers import Drivers
 from tagmetry.pipeline.arena.guarded import Guarded
+from tagmetry.pipeline.arena.stage_times import NOT_TIMED, StageTimes
 from tagmetry.pipeline.arena.turning import Turn, Turning
 
 _LONGEST_LEAD_S = 0.5
@@ -35,6 +36,7 @@ class ArenaResult:
         commands: How every robot shall move that has a controller, by id.
         taken_s: When the image was there, on the clock `time.monotonic`.
         done_s: When all of this was known, on the same clock.
+        times: How long each step took.
     """
 
     image: Image
@@ -47,6 +49,7 @@ class ArenaResult:
     commands: Mapping[int, Twist]
     taken_s: float
     done_s: float
+    times: StageTimes = NOT_TIMED
 
     @property
     def latency_s(self) -> float:
@@ -143,7 +146,9 @@ class ArenaMeasurement:
         with named_errors(image.source or "image"):
             self.camera.check_image(image.width_px, image.height_px)
             time_s = image_time_s(image)
+            begun_s = time.monotonic()
             detections = self._detections(image, time_s)
+            detect_s = time.monotonic() - begun_s
             if self.is_live and 0 <= taken_s - image.time_s < _LONGEST_LEAD_S:
                 taken_s = image.time_s  # a live source's clock is this one
             began_s = taken_s
@@ -163,6 +168,7 @@ class ArenaMeasurement:
             turn.commands,
             taken_s,
             self.clock(),
+            replace(turn.times, detect_s=detect_s),
         )
 
     @property

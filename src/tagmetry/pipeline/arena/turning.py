@@ -5,6 +5,7 @@ markers -> arena (tracks) -> neighbours, as they stood in the image
         -> safety: who has to stop stands still, whatever its controller wants
 """
 
+import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -22,6 +23,7 @@ from tagmetry.arena import (
 from tagmetry.arena.drive import Twist
 from tagmetry.detect import Detection
 from tagmetry.pipeline.arena.drivers import Drivers
+from tagmetry.pipeline.arena.stage_times import NOT_TIMED, StageTimes
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +37,7 @@ class Turn:
         decisions: Whether each robot may drive.
         stop: The stop for all.
         commands: How every robot shall move that has a controller, by id.
+        times: How long each step took; `detect_s` is not known here.
     """
 
     step: ArenaStep
@@ -43,6 +46,7 @@ class Turn:
     decisions: tuple[Decision, ...]
     stop: StopForAll
     commands: Mapping[int, Twist]
+    times: StageTimes = NOT_TIMED
 
 
 @dataclass
@@ -75,15 +79,21 @@ class Turning:
             acts_s: Says, once the tracks are up to date, when a command that is sent now acts; the
                 image's clock, not before the image.
         """
+        began_s = time.monotonic()
         step = self.arena.take(detections, image_s)
         world = self.arena.world_at(acts_s())
+        followed_s = time.monotonic()
         told = self.neighbourhood.tell(step.world) if self.neighbourhood is not None else ()
+        told_s = time.monotonic()
         if step.is_bumped and step.bump is not None:
             self.stop = self.stop.pressed(step.bump.told, image_s)
         decided = decide(world, self.arena.roster.robots, self.safety, self.stop)
         decisions = self.drivers.judged(decided, step.world)
         commands = self.drivers.commands(told, world, decisions, self._sensed_s(told))
-        return Turn(step, world, told, decisions, self.stop, commands)
+        times = StageTimes(
+            0.0, followed_s - began_s, told_s - followed_s, time.monotonic() - told_s
+        )
+        return Turn(step, world, told, decisions, self.stop, commands, times)
 
     def _sensed_s(self, told: Sequence[Told]) -> Mapping[int, float]:
         """Return the moments that robots are told of: their sensors' delays ago."""
