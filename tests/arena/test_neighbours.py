@@ -1,5 +1,6 @@
 """What a robot is told is what it would sense, in its own frame."""
 
+import weakref
 from collections.abc import Callable
 
 import numpy as np
@@ -137,6 +138,19 @@ def test_what_is_told_late_is_as_it_was() -> None:
     assert [one.neighbours for one in told[:2]] == [(), ()]
     assert [one.neighbours[0].range_m for one in told[2:]] == pytest.approx([0.1, 0.2, 0.3])
     assert told[4].neighbours[0].age_s == pytest.approx(0.11)
+
+
+def test_worlds_that_no_sensor_tells_of_any_more_are_forgotten() -> None:
+    late = NeighbourSensor(5.0, delay_s=0.1)
+    place = Neighbourhood(NeighbourSensor(5.0), sensors={1: late})
+    kept: list[weakref.ref[WorldState]] = []
+    for k in range(100):
+        now = world(state(1, 0, 0), state(2, 0.01 * k, 0), time_s=0.01 * k)
+        told = place.tell(now)
+        kept.append(weakref.ref(now))
+    assert sum(one() is not None for one in kept) <= 13
+    assert told_to(1, told).neighbours[0].range_m == pytest.approx(0.89)
+    assert told_to(2, told).neighbours[0].range_m == pytest.approx(0.99)
 
 
 def test_at_most_so_many_are_told_the_nearest() -> None:

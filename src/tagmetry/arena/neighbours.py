@@ -125,6 +125,7 @@ class Neighbourhood:
             world: The robots now; later than the one before.
         """
         self._crowds.append(_Crowd(world))
+        self._forget(world.time_s)
         by_sensor: dict[NeighbourSensor, list[int]] = {}
         for robot in world:
             by_sensor.setdefault(self.sensor_of(robot.id), []).append(robot.id)
@@ -136,6 +137,13 @@ class Neighbourhood:
     def sensor_of(self, robot_id: int) -> NeighbourSensor:
         """Return the sensor that a robot has."""
         return self.sensors.get(robot_id, self.sensor)
+
+    def _forget(self, time_s: float) -> None:
+        """Forget what is older than the latest sensor tells of."""
+        sensors = (self.sensor, *self.sensors.values())
+        since_s = time_s - max(one.delay_s for one in sensors)
+        while len(self._crowds) > 1 and self._crowds[1].world.time_s <= since_s:
+            self._crowds.popleft()
 
     def _told(self, sensor: NeighbourSensor, ids: Sequence[int], time_s: float) -> dict[int, Told]:
         """Return what robots with a sensor are told, by id."""
