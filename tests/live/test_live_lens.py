@@ -104,6 +104,7 @@ def test_what_cannot_be_done_is_refused(message: object, why: str) -> None:
 
 def test_the_bank_and_the_focus_curve_are_told() -> None:
     with served(furniture=Furniture()) as live:
+        eventually(lambda: live.ask("GET", "/lens/bank")[0] == 200, WAITS_S)
         status, _, body = live.ask("GET", "/lens/bank")
     told = json.loads(body)
     assert status == 200

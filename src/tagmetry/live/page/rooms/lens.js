@@ -5,6 +5,7 @@ import { make } from "../make.js";
 const $ = (id) => document.getElementById(id);
 const EMPTY = "The lens rests. Press the button, and zoom and focus are driven until a marker of " +
   "10 mm is measured.";
+const AGAIN_MS = 1000; // while the bank is being solved
 const PHASES = { preparing: "Preparing", scan: "Looking through zoom and focus",
   iterate: "Coming closer", average: "Measuring", track: "Following", reacquire: "Lost: looking again",
   ended: "Ended" };
@@ -75,6 +76,7 @@ export class LensRoom {
   async loadBank() {
     if (this.bank) return;
     const answer = await fetch("/lens/bank");
+    if (answer.status === 409 && this.isOpen) return setTimeout(() => this.loadBank(), AGAIN_MS);
     if (!answer.ok) return;
     this.bank = await answer.json();
     $("lens-bank-hint").textContent = "Depth that is sharp (across, 0.05 to 1.1 m, in equal ratios) " +

@@ -2,7 +2,8 @@
 
 import asyncio
 from collections.abc import Callable
-from typing import cast
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any, cast
 
 from fastapi import Request, Response
 from fastapi.responses import JSONResponse
@@ -14,6 +15,8 @@ from tagmetry.live.rooms.lens.drive import Drive
 from tagmetry.live.rooms.lens.messages import StartLens, StopLens
 from tagmetry.live.rooms.lens.scene import checked
 from tagmetry.live.rooms.room import Room
+
+_PATIENCE_S = 2.0  # of a request for the bank
 
 
 def lens_room(give: Callable[[Told], None]) -> Room:
@@ -36,7 +39,8 @@ class _Desk:
     def __init__(self, give: Callable[[Told], None]) -> None:
         self._give = give
         self._drive: Drive | None = None
-        self._turn = asyncio.Lock()
+        self._solver = ThreadPoolExecutor(1, "lens bank")
+        self._bank: Future[dict[str, Any]] | None = None
 
     def start(self, asked: Asked) -> None:
         """Look for the marker."""
@@ -52,11 +56,16 @@ class _Desk:
         self._drive.end()
 
     async def bank(self, _: Request) -> Response:
-        """Return the calibrations; the first time they are solved, which takes seconds."""
-        async with self._turn:
-            return JSONResponse(await asyncio.to_thread(bank_table))
+        """Return the calibrations; they are solved when the first page asks, which takes seconds."""
+        if self._bank is None:
+            self._bank = self._solver.submit(bank_table)
+        solved, _ = await asyncio.wait([asyncio.wrap_future(self._bank)], timeout=_PATIENCE_S)
+        if not solved:
+            return Response("being solved; ask again", 409, media_type="text/plain")
+        return JSONResponse(self._bank.result())
 
     def close(self) -> None:
         """End what runs."""
         if self._drive is not None:
             self._drive.close()
+        self._solver.shutdown(wait=False, cancel_futures=True)
