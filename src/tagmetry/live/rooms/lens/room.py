@@ -56,10 +56,12 @@ class _Desk:
         self._drive.end()
 
     async def bank(self, _: Request) -> Response:
-        """Return the calibrations; they are solved when the first page asks, which takes seconds."""
+        """Return the calibrations; solved when the first page asks, which takes seconds."""
         if self._bank is None:
             self._bank = self._solver.submit(bank_table)
-        solved, _ = await asyncio.wait([asyncio.wrap_future(self._bank)], timeout=_PATIENCE_S)
+        solved, _waiting = await asyncio.wait(
+            [asyncio.wrap_future(self._bank)], timeout=_PATIENCE_S
+        )
         if not solved:
             return Response("being solved; ask again", 409, media_type="text/plain")
         return JSONResponse(self._bank.result())
