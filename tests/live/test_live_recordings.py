@@ -1,5 +1,6 @@
 """The room of recordings: what was told is told again, and only what the list names is touched."""
 
+import errno
 import json
 import time
 from collections.abc import Iterator
@@ -13,6 +14,7 @@ from tagmetry.camera import Image
 from tagmetry.live.messages import LiveMarker, Picture, World
 from tagmetry.live.recording import Recordings
 from tagmetry.live.wire import split_picture
+from tagmetry.record.mcap.pieces import PieceWriter
 
 NAME = "one.mcap"
 MARKER = LiveMarker(3, ((1.0, 2.0), (3.0, 4.0), (5.0, 6.0), (7.0, 8.0)), (9.0, 10.0))
@@ -48,6 +50,26 @@ def folder(live: Served, recorded: Path, tmp_path: Path, monkeypatch: pytest.Mon
     (tmp_path / NAME).write_bytes(recorded.read_bytes())
     monkeypatch.setattr(live.runner, "recordings", tmp_path)
     return tmp_path
+
+
+def test_a_disk_that_becomes_full_is_told_at_once_and_until_the_next_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    recordings = Recordings(tmp_path)
+    recordings.start()
+    assert recordings.failure == ""
+    with monkeypatch.context() as broken:
+        broken.setattr(PieceWriter, "write", full)
+        recordings.told(World(0.0, (), (), False, ""))
+        eventually(lambda: "No space left" in recordings.failure)
+    recordings.close()
+    assert "No space left" in recordings.failure
+    recordings.start()
+    assert recordings.failure == ""
+    recordings.close()
 
 
 def asked(live: Served, what: str, name: str = NAME) -> tuple[int, bytes]:

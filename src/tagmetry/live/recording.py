@@ -20,15 +20,20 @@ class Recordings:
     Attributes:
         folder: Where they lie.
         name: Of the file that is being written; None while none is.
-        failure: Why the last one ended early; empty while all is well.
     """
 
     def __init__(self, folder: Path) -> None:
         self.name: str | None = None
-        self.failure = ""
         self.folder = folder
+        self._ended = ""
         self._recorder: Recorder | None = None
         self._closing: threading.Thread | None = None
+
+    @property
+    def failure(self) -> str:
+        """Why the open file, or the last one, ended early; empty while all is well."""
+        recorder = self._recorder
+        return (recorder.failure if recorder is not None else None) or self._ended
 
     @property
     def dropped_count(self) -> int:
@@ -47,7 +52,7 @@ class Recordings:
         self.folder.mkdir(parents=True, exist_ok=True)
         name = f"{datetime.now().astimezone():%Y-%m-%d-%H-%M-%S-%f}.mcap"
         self._recorder = Recorder(self.folder / name).__enter__()
-        self.name, self.failure = name, ""
+        self.name, self._ended = name, ""
 
     def stop(self) -> None:
         """End the file; what still waits is written in a thread of its own."""
@@ -83,4 +88,4 @@ class Recordings:
         try:
             recorder.__exit__(None, None, None)
         except InputError as error:
-            self.failure = str(error)
+            self._ended = str(error)
