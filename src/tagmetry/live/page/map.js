@@ -1,5 +1,6 @@
 // The arena from above: trails, robots with headings, covariance ellipses, neighbour links.
 import { drawErrors, drawGhost, drawPlan, drawReach, drawStage } from "./arena/layers.js";
+import { prepared } from "./canvas.js";
 
 const TRAIL = 150;
 const ELLIPSE_TIMES = 1000; // a standard deviation is too small to be seen
@@ -50,14 +51,7 @@ export class ArenaMap {
   }
 
   draw() {
-    const { canvas } = this, ratio = devicePixelRatio || 1;
-    const w = canvas.clientWidth, h = canvas.clientHeight;
-    canvas.width = Math.round(w * ratio);
-    canvas.height = Math.round(h * ratio);
-    const pen = canvas.getContext("2d"), style = getComputedStyle(document.documentElement);
-    const color = (name) => style.getPropertyValue(name).trim();
-    const k = this.scale();
-    pen.scale(ratio, ratio);
+    const { pen, width: w, height: h, color } = prepared(this.canvas), k = this.scale();
     pen.translate(w / 2, h / 2);
     const at = (x, y) => [x * k, -y * k];
     pen.strokeStyle = color("--line");

@@ -1,5 +1,6 @@
 // @ts-check
 // A small chart of the newest minute: lines over time, its range at the left, newest at the right.
+import { prepared } from "../canvas.js";
 import { make } from "../make.js";
 
 export const SPAN_S = 60;
@@ -19,7 +20,7 @@ export class Chart {
     this.least = least;
     this.caption = make("figcaption");
     this.canvas = make("canvas", { role: "img", "aria-label": `${title}, the newest minute` });
-    this.element = make("figure", { className: "chart" }, this.caption, this.canvas);
+    this.element = make("figure", { className: "robot-chart" }, this.caption, this.canvas);
   }
 
   /**
@@ -29,7 +30,7 @@ export class Chart {
   draw(times, lines) {
     const newest = lines.map((line) => told(line.at(-1), this.digits));
     this.caption.textContent = `${this.title} ${newest.join(" · ")} ${this.unit}`;
-    const [pen, w, h] = cleared(this.canvas);
+    const { pen, width: w, height: h, color } = prepared(this.canvas);
     const known = lines.flat().filter((value) => value !== null);
     if (!known.length) return;
     const [low, high] = range(known, this.least), end = times.at(-1) ?? 0;
@@ -59,19 +60,6 @@ function range(values, least) {
   const low = Math.min(...values), high = Math.max(...values);
   const more = Math.max(least - (high - low), 0) / 2;
   return [low - more, high + more];
-}
-
-function cleared(canvas) {
-  const ratio = devicePixelRatio || 1, w = canvas.clientWidth, h = canvas.clientHeight;
-  canvas.width = Math.round(w * ratio);
-  canvas.height = Math.round(h * ratio);
-  const pen = canvas.getContext("2d");
-  pen.scale(ratio, ratio);
-  return [pen, w, h];
-}
-
-function color(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 
 function told(value, digits) {

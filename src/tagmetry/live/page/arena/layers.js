@@ -9,7 +9,7 @@
  */
 
 /** @param {View} view @param {import("../messages").FloorErrors} floor */
-export function drawErrors({ pen, at, color, k }, floor) {
+export function drawErrors({ pen, at, k }, floor) {
   const radial = floor.errors.map(([, , ex, ey]) => Math.hypot(ex, ey));
   const worst = Math.max(...radial, 1e-9), side = floor.step_m * k + 1;
   const long = (0.8 * floor.step_m * k) / worst;
@@ -18,7 +18,7 @@ export function drawErrors({ pen, at, color, k }, floor) {
     pen.fillStyle = heat(radial[n] / worst);
     pen.fillRect(px - side / 2, py - side / 2, side, side);
   });
-  pen.strokeStyle = color("--panel");
+  pen.strokeStyle = "#fff";
   pen.lineWidth = 1;
   pen.beginPath();
   for (const [x, y, ex, ey] of floor.errors) {
