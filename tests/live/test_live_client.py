@@ -2,12 +2,14 @@
 
 import time
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import fields, is_dataclass, replace
+from types import UnionType
+from typing import Literal, get_args, get_origin, get_type_hints
 
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from live_server import Served, eventually, served
 
@@ -16,24 +18,21 @@ from tagmetry.live.client import LiveClient
 from tagmetry.live.client.mailbox import Mailbox
 from tagmetry.live.client.reading import parse_told
 from tagmetry.live.messages import (
+    CONTRACT,
     Beat,
     FloorErrors,
     FollowPath,
     GoTo,
     Halt,
-    Health,
     LiveMarker,
-    LiveParameter,
     LiveRobot,
     MeasureErrors,
     Picture,
     Refused,
     Resume,
+    Rule,
     SetParameter,
-    Stage,
     Stop,
-    Told,
-    Welcome,
     World,
 )
 from tagmetry.live.wire import packed
@@ -46,15 +45,7 @@ JPEG = cv2.imencode(".jpg", np.full((12, 16), 200, np.uint8))[1].tobytes()
 PICTURE = Picture(
     2.0, 3.0, 16, 12, (LiveMarker(3, ((0.0, 1.0), (2.0, 1.0)), (1.0, 0.5)),), JPEG
 )  # fmt: skip
-TOLD: list[Told] = [
-    Welcome("operator", ("a", "b"), (1.6, 0.85), 0.1),
-    World(2.5, (ROBOT,), ("b",), False, ""),
-    Stage("a", 1.0, (), ((0.0, 1.0, 0.5),), (), (LiveParameter("x", 1.0, 0.0, 2.0, "y"),)),
-    PICTURE,
-    Health("a", 30.0, 0.0, 0.01, 5.0, None, 1, None, ""),
-    FloorErrors(False, 0.1, 0.0, ((0.0, 1.0, 2.0, 3.0, 4.0),)),
-    Refused("no"),
-]
+RULES = [rule for rule in CONTRACT if rule.sender == "server"]
 
 
 @pytest.fixture(scope="module")
@@ -67,8 +58,38 @@ def client(live: Served, *, operator: bool = True) -> LiveClient:
     return LiveClient(live.origin, live.access.token if operator else None)
 
 
-@pytest.mark.parametrize("told", TOLD, ids=lambda one: type(one).__name__)
-def test_what_the_server_tells_survives_its_way(told: Told) -> None:
+def plain(hint: object) -> st.SearchStrategy[object]:
+    """Return values of a field's type that JSON can tell apart."""
+    inner = get_args(hint)
+    if is_dataclass(hint) and isinstance(hint, type):
+        hints = get_type_hints(hint)
+        return st.builds(hint, **{field.name: plain(hints[field.name]) for field in fields(hint)})
+    if get_origin(hint) is UnionType:
+        return st.one_of(*map(plain, inner))
+    if get_origin(hint) is Literal:
+        return st.sampled_from(inner)
+    if get_origin(hint) is tuple and inner[-1] is Ellipsis:
+        return st.lists(plain(inner[0]), max_size=3).map(tuple)
+    if get_origin(hint) is tuple:
+        return st.tuples(*map(plain, inner))
+    return SIMPLE[hint]
+
+
+SIMPLE: dict[object, st.SearchStrategy[object]] = {
+    float: st.floats(allow_nan=False, allow_infinity=False),
+    int: st.integers(-(2**53), 2**53),
+    str: st.text(max_size=20),
+    bool: st.booleans(),
+    bytes: st.binary(max_size=20),
+    type(None): st.none(),
+}
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
+@settings(max_examples=15, suppress_health_check=[HealthCheck.too_slow])
+@given(data=st.data())
+def test_whatever_the_server_tells_survives_its_way(rule: Rule, data: st.DataObject) -> None:
+    told = data.draw(plain(rule.message))
     assert parse_told(packed(told)) == told
 
 
