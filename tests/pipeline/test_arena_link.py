@@ -19,6 +19,7 @@ from tagmetry.arena import (
 )
 from tagmetry.arena.drive import Twist
 from tagmetry.camera import Image
+from tagmetry.errors import InputError
 from tagmetry.link import Host, RobotClient
 from tagmetry.pipeline.arena import ArenaResult
 from tagmetry.pipeline.arena.drivers import Drivers
@@ -85,6 +86,16 @@ def test_robots_are_told_neighbours_poses_and_stops() -> None:
             assert two.neighbours is not None
             assert two.neighbours.range_limit_m == pytest.approx(0.7)
             until(lambda: one.may_move and two.is_linked and not two.may_move, both, taker)
+
+
+def test_a_real_robot_is_told_of_a_simulated_one_that_has_no_link() -> None:
+    with Host({1: KEYS[1]}, port=0) as host, RobotClient(1, KEYS[1], port=host.address[1]) as one:
+        taker = LinkTaker(host, 0.5, poses=True, silent={2})
+        until(lambda: one.neighbours is not None, [one], taker)
+        assert one.neighbours is not None
+        assert [near.id for near in one.neighbours.seen] == [2]
+        with pytest.raises(InputError, match="there is no robot 2"):
+            LinkTaker(host, 0.5, every_s=0.0).take(result())
 
 
 def test_the_stop_for_all_latches_on_the_robots_until_it_is_released() -> None:

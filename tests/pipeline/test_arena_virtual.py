@@ -121,13 +121,28 @@ def test_the_stop_for_all_stops_it_and_it_obeys_no_longer_than_it_was_told():
     assert mixed.virtual.places()[GHOST].distance_m(before) == pytest.approx(0.04, abs=0.02)
 
 
+def driven(virtual: VirtualRobots, twist: Twist) -> np.ndarray:
+    """Return where the images of a second show the middle of its marker, shape (30, 2)."""
+    told, middles_px = SimpleNamespace(commands={GHOST: twist}), []
+    for n in range(30):
+        (seen,) = virtual.look(n * IMAGE_S)
+        middles_px.append(seen.corners_px.mean(axis=0))
+        told.world = SimpleNamespace(time_s=n * IMAGE_S)
+        virtual.drive(told)
+    return np.array(middles_px)
+
+
+def test_images_show_it_at_their_own_time_between_the_steps_of_the_physics():
+    start = {GHOST: Place(0.6, 0.3, 0.0)}
+    virtual = VirtualRobots(Roster(ROBOTS), start, VIEW, np.random.default_rng(0), noise_px=0.0)
+    steps_px = np.diff(driven(virtual, Twist(0.2, 0.0))[15:, 0])
+    assert steps_px.mean() > 3
+    assert steps_px.std() < 0.05
+
+
 def test_a_smaller_one_has_smaller_wheels_and_goes_as_far():
     small = replace(ROBOTS[1], diameter_m=0.12)
     start = {GHOST: Place(0, 0, 0)}
     virtual = VirtualRobots(Roster((ROBOTS[0], small)), start, VIEW, np.random.default_rng(0))
-    told = SimpleNamespace(decisions=(), commands={GHOST: Twist(0.1, 0.0)})
-    for n in range(30):
-        virtual.look(n * IMAGE_S)
-        told.world = SimpleNamespace(time_s=n * IMAGE_S)
-        virtual.drive(told)
+    driven(virtual, Twist(0.1, 0.0))
     assert virtual.places()[GHOST].x_m == pytest.approx(0.1 * 29 * IMAGE_S, abs=0.01)

@@ -50,3 +50,12 @@ def test_a_moment_of_it_and_what_nobody_saw_do_not_count():
     guessed = [turning(t, 1.5, age_s=0.1) for t in np.arange(0, 3, 0.1)]
     assert watched(guessed) == {}
     assert watched([turning(t, 3.0) for t in np.arange(0, 3, 0.1)], Twist(0.0, 2.5)) == {}
+
+
+def test_orders_that_an_image_cannot_show_yet_do_not_count():
+    """Told to turn left and right by turns, it does so 1.4 s later."""
+    obedience = Obedience()
+    for time_s in np.arange(0, 12, 0.1):
+        told, seen = (2.0 * (-1) ** int(t / 2.5) for t in (time_s, max(time_s - 1.4, 0.0)))
+        obedience.watch(turning(time_s, seen), Twist(0.0, told))
+    assert not obedience.faults

@@ -75,9 +75,13 @@ class MotorBus:
             self._end(self._ended())
         return STANDING
 
-    def close(self) -> None:
-        """End the process: it sees its input end."""
+    def hang_up(self) -> None:
+        """Let the process see its input end: it ends by itself."""
         _wire(self._process.stdin).close()
+
+    def close(self) -> None:
+        """End the process, which has been given a moment to do so itself."""
+        self.hang_up()
         try:
             self._process.wait(_END_S)
         except subprocess.TimeoutExpired:

@@ -77,7 +77,9 @@ class Processes:
         return Acts(self._heard(), wheels)
 
     def close(self) -> None:
-        """End all processes."""
+        """End all processes, side by side."""
+        for bus in self._buses.values():
+            bus.hang_up()
         for bus in self._buses.values():
             bus.close()
         self._socket.close()

@@ -68,11 +68,10 @@ class VirtualRobots:
         return self._eye.look(time_s, self._poses_later(time_s - self._time_s))
 
     def drive(self, turn: Turn) -> None:
-        """Obey what the host decided, from when it acts; who has to stop stands still."""
-        stopped = {one.robot_id for one in turn.decisions if one.must_stop}
+        """Obey what the host commands, from when it acts; stand still where it commands nothing."""
         for robot_id in self._rows:
-            twist = STILL if robot_id in stopped else turn.commands.get(robot_id, STILL)
-            self._orders[robot_id].append((turn.world.time_s, twist))
+            order = turn.world.time_s, turn.commands.get(robot_id, STILL)
+            self._orders[robot_id].append(order)
 
     def _pass(self, until_s: float) -> None:
         now_s = until_s if self._time_s == float("-inf") else self._time_s
