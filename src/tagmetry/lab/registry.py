@@ -10,6 +10,7 @@ from tagmetry.lab.experiment import Experiment
 _HOMES = {
     "seed000-fixed": "seed000_fixed",
     "seed000-lens": "seed000_lens",
+    "lens-limits": "lens_limits",
     "seed001-calibration": "seed001_calibration",
     "seed001-map": "seed001_map",
     "seed001-slider": "seed001_slider",
