@@ -63,6 +63,11 @@ class OverheadView:
             return self.points_on_plane(pixels, height_m)
         return self._meet(rays, height_m)
 
+    def pixels_of(self, p_world: Array) -> Array:
+        """Return the pixels of world points, shape (..., 2)."""
+        rays = (p_world - self.T_world_camera.translation) @ self._R_world_camera
+        return self.camera.project(rays)
+
     def project(self, p_world: Array) -> tuple[Array, Array]:
         """Return pixels, shape (..., 2), and d(pixel) / d(world point), shape (..., 2, 3)."""
         R_camera_world = self._R_world_camera.T
