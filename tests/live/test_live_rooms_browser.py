@@ -143,3 +143,15 @@ def test_the_lens_is_driven_to_a_marker(window: Chromium, live: Served) -> None:
     window.wait("document.querySelectorAll('#lens-bank tr').length === 31", SLOW_S)
     photograph(window, "lens")
     fits_a_phone(window, "lens")
+
+
+@pytest.mark.parametrize(
+    ("room", "empty"),
+    [("recordings", "Nothing has been recorded yet"), ("health", "No news yet")],
+)
+def test_a_room_without_news_says_what_it_waits_for(
+    window: Chromium, live: Served, room: str, empty: str
+) -> None:
+    enter(window, live, room)
+    window.wait(f"document.getElementById('room-{room}').innerText.includes({json.dumps(empty)})")
+    fits_a_phone(window, room)
