@@ -6,6 +6,8 @@ from small_world import SmallWorld
 
 from tagmetry.arena.controllers import (
     Aggregate,
+    Arc,
+    Course,
     Disperse,
     Formation,
     PathFollower,
@@ -128,6 +130,28 @@ def test_a_formation_goes_with_its_leader():
     for robot in (1, 2):
         spot = world.places[robot].seen_from(world.places[0])
         assert (spot.x_m, spot.y_m) == pytest.approx((shape[robot].x_m, shape[robot].y_m), abs=0.02)
+
+
+def test_one_who_holds_two_crowds_together_keeps_both_in_reach():
+    """A mean would draw it to the nearer crowd; the middle of all, with itself, is 0.3 m ahead."""
+    crowd = [Neighbour(n, 0.35, np.pi + 0.1 * (n - 3), 0.0, 0.0) for n in range(7)]
+    far = Neighbour(9, 0.95, 0.0, 0.0, 0.0)
+    wish = Aggregate()(View(1, 0.0, STILL, (*crowd, far)))
+    assert wish.speed_mps == pytest.approx(0.15, abs=1e-3)  # ahead, at its speed
+    assert abs(wish.turn_rate_radps) < 0.05
+    assert Aggregate()(View(1, 0.0, STILL, tuple(crowd))).speed_mps == 0  # they are behind
+
+
+def test_a_long_formation_does_not_tear():
+    """Most of it does not sense its leader; who heeded those behind would wait for them."""
+    shape = {n: Place(-0.3 * n, 0.0, 0.0) for n in range(7)}
+    course = Course(HERE, (Arc(2.4),), speed_mps=0.12)
+    keep = [Shielded(Formation(shape, 0)) for _ in range(6)]
+    starts = [Place(place.x_m, place.y_m, 0.0) for place in shape.values()]
+    world = SmallWorld(starts, [PathFollower(course), *keep], range_m=0.7).run(course.end_s + 8)
+    for robot, place in shape.items():
+        spot = world.places[robot].seen_from(world.places[0])
+        assert (spot.x_m, spot.y_m) == pytest.approx((place.x_m, place.y_m), abs=0.08)
 
 
 def test_a_robot_alone_in_a_formation_or_a_swarm():

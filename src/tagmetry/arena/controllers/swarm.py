@@ -8,6 +8,9 @@ from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, sin
 from typing import Self
 
+import cv2
+import numpy as np
+
 from tagmetry.arena.controllers.parameters import Parameter
 from tagmetry.arena.controllers.view import View
 from tagmetry.arena.drive import STILL, Twist
@@ -40,6 +43,12 @@ class Manner:
 class Aggregate:
     """Gather: every robot goes to the middle of those it senses, and stops at a distance.
 
+    The middle is that of the smallest circle around them and itself: to go there keeps those
+    farthest away in reach, so that a swarm does not come apart as it does where all go to a mean.
+
+    Reference: H. Ando et al., Distributed memoryless point convergence algorithm for mobile robots
+    with limited visibility, 1999.
+
     Attributes:
         distance_m: Between centres where it is near enough.
         manner: How it moves.
@@ -54,9 +63,7 @@ class Aggregate:
         """Return how to move."""
         if not view.neighbours:
             return self.search
-        count = len(view.neighbours)
-        x_m = sum(_x_m(one) for one in view.neighbours) / count
-        y_m = sum(_y_m(one) for one in view.neighbours) / count
+        x_m, y_m = _middle_of_all(view)
         push_x, push_y = _pushed(view, self.distance_m)
         return driven(x_m + 3 * push_x, y_m + 3 * push_y, self.manner)
 
@@ -124,12 +131,21 @@ class Formation:
         if own is None or not known:
             return STILL
         chosen = view.neighbour(self.leader)
-        spots = [self._spot(own, one) for one in ([chosen] if chosen else known)]
+        spots = [self._spot(own, one) for one in ([chosen] if chosen else self._before(own, known))]
         x_m = sum(spot.x_m for spot in spots) / len(spots)
         y_m = sum(spot.y_m for spot in spots) / len(spots)
         if hypot(x_m, y_m) < 0.01:  # in its place: turn as the others do
             return Twist(0.0, self.manner.turn_per_s * sin(spots[0].heading_rad))
         return driven(x_m, y_m, self.manner)
+
+    def _before(self, own: Place, known: list[Neighbour]) -> list[Neighbour]:
+        """Return those whose places are nearer to the leader's; all where nobody's is.
+
+        Who also heeds those behind waits for them, and a long formation tears.
+        """
+        lead = self.places[self.leader]
+        own_m = own.distance_m(lead) - 1e-6
+        return [one for one in known if self.places[one.id].distance_m(lead) < own_m] or known
 
     def _spot(self, own: Place, neighbour: Neighbour) -> Place:
         """Return the robot's own place of the shape, as a neighbour tells it, in its own frame."""
@@ -167,6 +183,13 @@ def _speed(manner: Manner) -> Parameter:
 
 def _at_speed(manner: Manner, speed_mps: float) -> Manner:
     return replace(manner, speed_mps=speed_mps)
+
+
+def _middle_of_all(view: View) -> tuple[float, float]:
+    """Return the middle of the smallest circle around a robot and its neighbours, in its frame."""
+    points = [(0.0, 0.0), *((_x_m(one), _y_m(one)) for one in view.neighbours)]
+    (x_m, y_m), _ = cv2.minEnclosingCircle(np.array(points, dtype=np.float32))
+    return x_m, y_m
 
 
 def _pushed(view: View, distance_m: float) -> tuple[float, float]:
