@@ -51,17 +51,19 @@ def test_what_holds(rows, holds):
     assert held(rows) == holds
 
 
-def test_a_crowd_as_dense_as_bodies_allow_has_gathered():
-    """A hexagonal crowd of 91 with the shield's step of 180 mm, and one 1.6 times as wide."""
-    axial = [(q, r) for q in range(-5, 6) for r in range(-5, 6) if abs(q + r) <= 5]
-    xy_m = 0.18 * np.array([(q + r / 2, r * np.sqrt(3) / 2) for q, r in axial])
-    for wide, gathered in ((1.0, True), (1.6, False)):
-        rows = [
-            SwarmPlace("aggregate", 91, 0, t, n, wide * x_m, wide * y_m, 0.18, nan, 9, False, t)
-            for t in (0.0, 1.0)
-            for n, (x_m, y_m) in enumerate(xy_m.tolist())
-        ]
-        assert held(rows)[0] is gathered
+@pytest.mark.parametrize(("gap_m", "gathered"), [(0.31, True), (0.33, False)])
+def test_a_chain_of_near_ones_is_one_crowd(gap_m, gathered):
+    """Two rows of five at 200 mm, so far from each other."""
+    x_m = [0.2 * n for n in range(5)]
+    x_m += [x_m[-1] + gap_m + one for one in x_m]
+    rows = [
+        SwarmPlace("aggregate", 10, 0, t, n, x, 0.0, 0.2, nan, 9, False, t)
+        for t in (0.0, 1.0)
+        for n, x in enumerate(x_m)
+    ]
+    check = conclude(rows).checks[0]
+    assert check.holds is gathered
+    assert check.measured == ("1" if gathered else "2")
 
 
 def test_its_figures_can_be_drawn():

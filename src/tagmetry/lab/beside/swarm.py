@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
 
 from tagmetry.geometry import Array
 from tagmetry.lab.beside.sample import rounded
@@ -19,8 +21,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _NEAR_SHARE = 0.1  # of the whole change: from then on it has converged
-_DENSE_STEP_M = 0.18  # a body and the gap that the shield keeps
-_DENSE_TIMES, _SPREAD_M, _OFF_M = 1.5, 0.9 * 0.45, 0.03
+_LINK_M = 0.32  # two bodies: so near are those of one crowd
+_SPREAD_M, _OFF_M = 0.9 * 0.45, 0.03
 _RADIUS_M = 0.08
 _Key = tuple[str, int, int]
 
@@ -63,6 +65,13 @@ class _Run:
             return np.asarray(self.off_m[:, 1:].mean(axis=1))
         middle = self.xy_m.mean(axis=1, keepdims=True)
         return np.asarray(np.linalg.norm(self.xy_m - middle, axis=2).mean(axis=1))
+
+    @property
+    def crowds(self) -> int:
+        """In how many crowds the robots stand at the end: chains of those that are near."""
+        xy_m = self.xy_m[-1]
+        near = np.linalg.norm(xy_m[:, None] - xy_m[None], axis=-1) < _LINK_M
+        return int(connected_components(csr_array(near))[0])
 
     @property
     def converged_s(self) -> float:
@@ -131,15 +140,16 @@ def _checks(run: _Run) -> tuple[Check, ...]:
 
 
 def _goal(named: str, run: _Run) -> Check:
-    """Return whether the task was done; a crowd's mean distance from its middle is 2/3 radius."""
+    """Return whether the task was done."""
     last_m = float(run.measure_m[-1])
-    dense_m = 2 / 3 * _DENSE_STEP_M * float(np.sqrt(run.robots * np.sqrt(0.75) / np.pi))
+    if run.task == "aggregate":
+        return Check(
+            f"{named}: crowds in the end, of robots less than {1000 * _LINK_M:.0f} mm apart",
+            "one",
+            f"{run.crowds}",
+            run.crowds == 1,
+        )
     told, required, holds = {
-        "aggregate": (
-            "mean distance from the middle",
-            f"at most {_DENSE_TIMES} times a dense crowd's, {1000 * dense_m:.0f} mm",
-            last_m <= _DENSE_TIMES * dense_m,
-        ),
         "disperse": (
             "nearest other, in the mean",
             f"at least {1000 * _SPREAD_M:.0f} mm",
