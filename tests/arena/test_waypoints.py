@@ -50,6 +50,15 @@ def test_a_sharp_corner_ends_a_leg_at_the_point() -> None:
     assert abs(second.start.heading_rad) > 3.0
 
 
+@pytest.mark.parametrize(("turn_deg", "legs"), [(100, 1), (-100, 1), (120, 2), (-120, 2)])
+def test_a_corner_is_a_stop_from_108_degrees_on_however_much_room_there_is(
+    turn_deg: float, legs: int
+) -> None:
+    turn_rad = np.radians(turn_deg)
+    end = (2.0 + 2.0 * float(np.cos(turn_rad)), 2.0 * float(np.sin(turn_rad)))
+    assert len(legs_through([(0.0, 0.0), (2.0, 0.0), end])) == legs
+
+
 def test_a_corner_between_short_sides_is_tighter_or_a_stop() -> None:
     (tight,) = legs_through([(0.0, 0.0), (0.1, 0.0), (0.1, 0.1)], radius_m=0.5)
     assert max(abs(arc.turn_rad) / arc.length_m for arc in tight.arcs) == pytest.approx(1 / 0.05)

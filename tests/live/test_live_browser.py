@@ -11,6 +11,7 @@ import pytest
 from chromium import Chromium, browser_path
 from live_server import running, served
 
+from tagmetry.arena.place import Place
 from tagmetry.live.messages import FloorErrors, LiveRobot, World
 from tagmetry.live.opening import LivePage, opened_page
 from tagmetry.live.watch import PATIENCE_S
@@ -200,6 +201,33 @@ def test_a_parameter_is_set_by_its_slider(browser: Chromium, page: LivePage) -> 
     stage = page.runner._show.steered[1].parameters
     assert {one.name: one.value for one in stage}["damping"] == pytest.approx(0.8, abs=0.01)
     release(browser)
+
+
+def test_wheels_and_camera_are_compared_as_places_are(browser: Chromium) -> None:
+    """The page's arithmetic of places is the library's; a drift of 3 cm and 0.1 rad is told."""
+    own, other = Place(0.3, -0.2, 2.9), Place(0.5, 0.1, 0.7)
+    found = browser.run(
+        "import('/arena/ghosts.js').then((m) =>"
+        f" [m.joined({values(own)}, {values(other)}), m.inverse({values(own)})])"
+    )
+    for place, want in zip(found, (own @ other, own.inverse()), strict=True):
+        np.testing.assert_allclose(place[:2], want.xy_m, atol=1e-12)
+        assert np.sin(place[2] - want.heading_rad) == pytest.approx(0.0, abs=1e-12)
+    seen, wheels = Place(1.0, 0.5, 1.2), Place(-0.4, 0.2, -2.0)
+    ahead = Place(0.3, 0.05, 0.4)
+    moved, drifted = seen @ ahead, wheels @ ahead @ Place(0.03, 0.0, 0.1)
+    told = browser.run(
+        "import('/arena/ghosts.js').then((m) => { const ghosts = new m.Ghosts(), one = (a, b) =>"
+        " ({ id: 1, is_seen: true, x_m: a[0], y_m: a[1], heading_rad: a[2], odometry: b });"
+        f" ghosts.take([one({values(seen)}, {values(wheels)})]);"
+        f" const now = one({values(moved)}, {values(drifted)}); ghosts.take([now]);"
+        " return ghosts.off(now); })"
+    )
+    assert (told["off_m"], told["turned_rad"]) == pytest.approx((0.03, 0.1), abs=1e-9)
+
+
+def values(place: Place) -> list[float]:
+    return [place.x_m, place.y_m, place.heading_rad]
 
 
 def test_the_error_map_is_shown_and_told(browser: Chromium) -> None:

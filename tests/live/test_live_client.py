@@ -1,5 +1,6 @@
 """The client for programs: it gets what was told, asks what it may, and drives while it is open."""
 
+import asyncio
 import time
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
@@ -17,6 +18,7 @@ from tagmetry.errors import InputError
 from tagmetry.live.client import LiveClient
 from tagmetry.live.client.mailbox import Mailbox
 from tagmetry.live.client.reading import parse_told
+from tagmetry.live.hub import Hub
 from tagmetry.live.messages import (
     CONTRACT,
     Beat,
@@ -130,6 +132,17 @@ def test_refuses_what_is_no_message(frame: str | bytes, told: str) -> None:
 def test_no_frame_does_harm(frame: str | bytes) -> None:
     with pytest.raises(InputError):
         parse_told(frame)
+
+
+def test_what_was_told_before_the_server_ran_waits_for_the_first_page() -> None:
+    hub = Hub()
+    hub.give(World(7.0, (), (), False, ""))
+    frames = hub.join().frames()
+
+    async def first() -> str | bytes:
+        return await anext(frames)
+
+    assert parse_told(asyncio.run(first())) == World(7.0, (), (), False, "")
 
 
 def test_gets_the_newest_world_and_never_the_same_twice(live: Served) -> None:
