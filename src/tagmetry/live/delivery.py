@@ -6,7 +6,7 @@ import time
 from tagmetry.live.hub import Hub
 from tagmetry.live.messages import Delivery
 
-_EVERY_S, _SENDS_PER_S = 0.5, 500  # to all pages together
+_EVERY_S, _SENDS_PER_S = 0.5, 250  # to all pages together
 
 
 async def tell_delivery(hub: Hub) -> None:

@@ -17,8 +17,8 @@ from tagmetry.live.vitals import Vitals
 from tagmetry.pipeline.arena_twin import Moment
 
 _WORLD_S, _HEALTH_S = 1 / 20, 0.5
-_WORLD_SENDS_PER_S, _PICTURE_SENDS_PER_S = 1500, 250  # to all pages together
-_HEALTH_SENDS_PER_S = 500
+_WORLD_SENDS_PER_S, _PICTURE_SENDS_PER_S = 1000, 150  # to all pages together
+_HEALTH_SENDS_PER_S = 250
 _MOST_WIDTH_PX, _JPEG_QUALITY = 960, 75
 
 
