@@ -16,6 +16,11 @@ _HEAD = """\
 // What the server and the page say to each other, for editors and checkers of types.
 // Written by docs/make_pages.py from tagmetry.live.messages. Numbers that are not finite are null.
 """
+_SEND = """\
+/** Sends what a page asks for: its type, and its other fields. */
+export type Send = <T extends Asked["type"]>(
+  type: T, fields?: Omit<Extract<Asked, { type: T }>, "type">) => boolean;
+"""
 _PLAIN = {float: "number", int: "number", str: "string", bool: "boolean", bytes: "Blob"}
 _ATTRIBUTE = re.compile(r"^    (\w+): (.+(?:\n        .+)*)", re.MULTILINE)
 
@@ -26,7 +31,7 @@ def page_types() -> str:
     parts = [part for message in messages for part in _parts(message)]
     interfaces = [_interface(one, is_message=one in messages) for one in dict.fromkeys(parts)]
     unions = [_union("Told", Told), _union("Asked", Asked)]
-    return "\n".join([_HEAD, *interfaces, *unions])
+    return "\n".join([_HEAD, *interfaces, *unions, _SEND])
 
 
 def _parts(kind: type) -> Iterator[type]:

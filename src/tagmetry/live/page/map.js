@@ -1,3 +1,4 @@
+// @ts-check
 // The arena from above: trails, robots with headings, covariance ellipses, neighbour links.
 import { drawErrors, drawGhost, drawPlan, drawReach, drawStage } from "./arena/layers.js";
 import { prepared } from "./canvas.js";
@@ -6,6 +7,10 @@ const TRAIL = 150;
 const ELLIPSE_TIMES = 1000; // a standard deviation is too small to be seen
 
 export class ArenaMap {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {(x: number, y: number, robot: number | null, isShifted: boolean) => void} onClick
+   */
   constructor(canvas, onClick) {
     this.canvas = canvas;
     this.half = [1.6, 0.85];
@@ -16,11 +21,13 @@ export class ArenaMap {
     this.plan = [];
     canvas.addEventListener("click", (event) => {
       const box = canvas.getBoundingClientRect();
-      onClick(...this.place(event.clientX - box.left, event.clientY - box.top), this.hit(event, box), event.shiftKey);
+      const [x, y] = this.place(event.clientX - box.left, event.clientY - box.top);
+      onClick(x, y, this.hit(event, box), event.shiftKey);
     });
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
+  /** @param {import("./messages").World} world */
   take(world) {
     this.robots = world.robots;
     for (const one of world.robots) {
@@ -53,6 +60,7 @@ export class ArenaMap {
   draw() {
     const { pen, width: w, height: h, color } = prepared(this.canvas), k = this.scale();
     pen.translate(w / 2, h / 2);
+    /** @type {(x: number, y: number) => [number, number]} */
     const at = (x, y) => [x * k, -y * k];
     pen.strokeStyle = color("--line");
     pen.strokeRect(-this.half[0] * k, -this.half[1] * k, 2 * this.half[0] * k, 2 * this.half[1] * k);

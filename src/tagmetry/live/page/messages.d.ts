@@ -490,3 +490,7 @@ export type Asked =
   | SaveCalibration
   | StartLens
   | StopLens;
+
+/** Sends what a page asks for: its type, and its other fields. */
+export type Send = <T extends Asked["type"]>(
+  type: T, fields?: Omit<Extract<Asked, { type: T }>, "type">) => boolean;

@@ -1,3 +1,4 @@
+// @ts-check
 // One line for each robot. Names are only ever set as text.
 export class RobotTable {
   constructor(body, onSelect) {

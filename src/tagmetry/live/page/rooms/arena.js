@@ -1,3 +1,4 @@
+// @ts-check
 // The arena: map, camera, robots, and what operators ask of them.
 import { Ghosts } from "../arena/ghosts.js";
 import { History } from "../arena/history.js";
@@ -8,13 +9,24 @@ import { CameraView } from "../camera.js";
 import { ArenaMap } from "../map.js";
 import { RobotTable } from "../table.js";
 
+/** @type {(id: string) => any} */
 const $ = (id) => document.getElementById(id);
 
+/** @typedef {import("../messages").LiveRobot} LiveRobot */
+/** @typedef {import("../messages").World} World */
+
 export class ArenaRoom {
+  /** @param {{ send: import("../messages").Send, commands: boolean }} page */
   constructor(page) {
     this.id = "arena";
     this.page = page;
-    this.selected = this.world = this.recording = this.errors = null;
+    /** @type {number | null} */
+    this.selected = null;
+    /** @type {World | null} */
+    this.world = null;
+    /** @type {import("../messages").FloorErrors | null} */
+    this.errors = null;
+    this.recording = /** @type {string | null} */ (null);
     this.map = new ArenaMap($("map"), (...where) => this.point(...where));
     this.map.ghosts = this.ghosts = new Ghosts();
     this.history = new History();
@@ -31,17 +43,22 @@ export class ArenaRoom {
   listen() {
     const { page } = this;
     $("release").addEventListener("click", () => page.send("Release"));
-    $("resume").addEventListener("click", () => page.send("Resume", { robot_id: this.selected }));
+    $("resume").addEventListener("click", () => this.order("Resume"));
     $("record").addEventListener("click", () =>
       page.send(this.recording ? "StopRecording" : "StartRecording"));
     $("scenario-form").addEventListener("submit", (event) => {
       event.preventDefault();
       page.send("ChooseScenario", { name: $("scenario").value, robots: Number($("robots").value) });
     });
-    $("halt").addEventListener("click", () => page.send("Halt", { robot_id: this.selected }));
+    $("halt").addEventListener("click", () => this.order("Halt"));
     addEventListener("keydown", (event) => {
       if (event.code === "Escape" && this.isOpen) this.select(null);
     });
+  }
+
+  /** @param {"Halt" | "Resume"} type of what the selected robot shall do */
+  order(type) {
+    if (this.selected !== null) this.page.send(type, { robot_id: this.selected });
   }
 
   listenForErrors() {
@@ -55,8 +72,9 @@ export class ArenaRoom {
   listenForPaths() {
     $("path-form").addEventListener("submit", (event) => {
       event.preventDefault();
-      if (!this.plan.points?.length) return;
-      this.page.send("FollowPath", { robot_id: this.selected, points_m: this.plan.points });
+      const { points } = this.plan;
+      if (this.selected === null || !points?.length) return;
+      this.page.send("FollowPath", { robot_id: this.selected, points_m: points });
       this.plan.clear();
     });
     $("path-clear").addEventListener("click", () => this.plan.clear());
@@ -69,6 +87,7 @@ export class ArenaRoom {
   open() { this.isOpen = true; }
   close() { this.isOpen = false; }
 
+  /** @param {import("../messages").Welcome} message */
   welcome(message) {
     this.map.half = message.floor_m;
     this.startAnew();
@@ -78,6 +97,7 @@ export class ArenaRoom {
 
   lost() {}
 
+  /** @param {import("../messages").Told} message */
   take(message) {
     if (message.type === "World") this.showWorld(message);
     if (message.type === "Picture" && this.isOpen) return this.showPicture(message);
@@ -94,12 +114,14 @@ export class ArenaRoom {
     this.history.clear();
   }
 
+  /** @param {import("../messages").Stage} message */
   showStage(message) {
     this.map.stage = message;
     if (document.activeElement !== $("scenario")) $("scenario").value = message.scenario;
     this.parameters.take(message.parameters);
   }
 
+  /** @param {import("../messages").FloorErrors} message */
   takeErrors(message) {
     this.errors = message;
     this.showErrors();
@@ -119,6 +141,7 @@ export class ArenaRoom {
     this.map.draw();
   }
 
+  /** @param {World} message */
   showWorld(message) {
     if (this.world && message.time_s < this.world.time_s) this.startAnew();
     this.world = message;
@@ -174,6 +197,7 @@ export class ArenaRoom {
   }
 }
 
+/** @param {LiveRobot} one */
 function told(one, commands, off) {
   const wheels = off ? `; its wheels are ${(1000 * off.off_m).toFixed(1)} mm and `
     + `${(off.turned_rad * 180 / Math.PI).toFixed(1)}° off the camera` : "";
