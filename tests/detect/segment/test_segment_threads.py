@@ -1,6 +1,5 @@
 """What several threads find together is what one finds alone."""
 
-import threading
 from collections.abc import Iterator
 
 import cv2
@@ -8,7 +7,6 @@ import numpy as np
 import pytest
 
 from tagmetry.detect.segment import squares, squares_at_a_glance
-from tagmetry.detect.segment.threads import all_of
 
 
 @pytest.fixture
@@ -16,28 +14,6 @@ def opencv_threads() -> Iterator[None]:
     before = cv2.getNumThreads()
     yield
     cv2.setNumThreads(before)
-
-
-@pytest.mark.parametrize(("threads", "most"), [(1, 1), (2, 2), (3, 3), (9, 5)])
-def test_results_come_in_order_from_no_more_threads_than_allowed(threads: int, most: int) -> None:
-    seen: set[int] = set()
-    together = threading.Barrier(most, timeout=10)
-
-    def square(number: int) -> int:
-        seen.add(threading.get_ident())
-        if number < most:
-            together.wait()
-        return number**2
-
-    assert all_of(square, range(5), threads) == [0, 1, 4, 9, 16]
-    assert len(seen) == most
-    assert threading.get_ident() in seen
-    assert all_of(square, [], threads) == []
-
-
-def test_what_goes_wrong_in_a_thread_is_told() -> None:
-    with pytest.raises(ZeroDivisionError):
-        all_of(lambda number: 1 / number, [1, 0], 2)
 
 
 @pytest.mark.usefixtures("opencv_threads")

@@ -8,14 +8,15 @@ tells of boards whose markers touch each other.
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 import cv2
 import numpy as np
 
 from tagmetry.detect.segment.distinct import distinct
 from tagmetry.detect.segment.look import Look, dark_squares
-from tagmetry.detect.segment.threads import all_of
 from tagmetry.detect.segment.tiles import Tiles
+from tagmetry.detect.workers import at_once
 from tagmetry.geometry.arrays import Array, BoolArray, GreyPixels
 
 _FULL_BELOW_PX = 32.0  # the full image is looked at where sides may be shorter than this
@@ -110,19 +111,15 @@ def _both(grey: GreyPixels, min_side_px: float, plan: _Plan, bright: bool) -> Sq
 
 def _seen(grey: GreyPixels, min_side_px: float, plan: _Plan) -> Array:
     """Return the dark squares of all looks, those alike once, shape (n, 4, 2)."""
-    scales = [scale for scale in plan if scale * min(grey.shape) >= _LEAST_IMAGE_PX]
-
-    def seen(scale: float) -> Array:
-        return _at_scale(grey, scale, plan[scale], min_side_px)
-
-    found = all_of(seen, scales, threads=_threads(grey))
+    tasks = [
+        partial(_at_scale, grey, scale, looks, min_side_px)
+        for scale, looks in plan.items()
+        if scale * min(grey.shape) >= _LEAST_IMAGE_PX
+    ]
+    shared = cv2.getNumThreads() > 1 and grey.size >= _SHARED_FROM_PIXELS
+    found = at_once(tasks) if shared else [task() for task in tasks]
     corners_px = np.concatenate([np.empty((0, 4, 2)), *found])
     return corners_px[distinct(corners_px)]
-
-
-def _threads(grey: GreyPixels) -> int:
-    """Return how many threads are worth waking: as many as OpenCV may use, for large images."""
-    return cv2.getNumThreads() if grey.size >= _SHARED_FROM_PIXELS else 1
 
 
 def _at_scale(grey: GreyPixels, scale: float, looks: tuple[Look, ...], min_side_px: float) -> Array:
