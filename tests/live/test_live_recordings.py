@@ -107,6 +107,23 @@ def test_shows_again_what_was_seen(live: Served, folder: Path) -> None:
     assert asked(live, "picture?at=0")[0] == 204  # no picture yet
 
 
+def test_markers_are_shown_on_their_own_picture_or_not_at_all(
+    live: Served, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    recordings = Recordings(tmp_path)
+    recordings.start()
+    pixels = np.zeros((48, 64), np.uint8)
+    recordings.image(Image(pixels, 1.0, "capture", source="twin"))
+    recordings.told(Picture(1.0, 0.0, 64, 48, (MARKER,), b""))
+    time.sleep(0.4)
+    recordings.told(Picture(2.0, 0.0, 64, 48, (MARKER,), b""))  # its image was dropped
+    name = str(recordings.name)
+    recordings.close()
+    monkeypatch.setattr(live.runner, "recordings", tmp_path)
+    assert asked(live, "picture?at=0.1", name)[0] == 200
+    assert asked(live, "picture?at=9", name)[0] == 204
+
+
 @pytest.mark.parametrize("at", ["x", "nan", "inf", "1e999", 400 * "1", ""])
 def test_refuses_what_is_no_moment(live: Served, folder: Path, at: str) -> None:
     status, body = asked(live, f"world?at={at}")

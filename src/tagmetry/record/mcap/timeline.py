@@ -78,8 +78,7 @@ class Timeline:
             InputError: The file cannot be read any more.
         """
         at_ns = self._first_ns + round(1e9 * min(max(at_s, 0.0), self.length_s))
-        after = bisect_right(self._begins_ns, at_ns)  # what is slow to write may come a piece late
-        last = min(after, len(self._pieces) - 1)
+        last = bisect_right(self._begins_ns, at_ns) - 1
         for number in range(last, max(last - _MOST_BACK, -1), -1):
             for entry in reversed(self._entries(number)):
                 if entry.topic == topic and entry.logged_ns <= at_ns:
