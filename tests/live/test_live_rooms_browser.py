@@ -11,6 +11,7 @@ from live_server import Served, served
 
 from tagmetry.live.rooms.every import Furniture
 
+PLACES = 50 if os.environ.get("LIVE_PICTURES") else 6  # of a camera that is carried
 PICTURES = os.environ.get("LIVE_PICTURES")  # a folder; for the docs
 SLOW_S = 240.0  # pictures are rendered, on a busy computer
 PHONE, DESK = (390, 844), (1280, 1150)
@@ -143,6 +144,19 @@ def test_the_lens_is_driven_to_a_marker(window: Chromium, live: Served) -> None:
     window.wait("document.querySelectorAll('#lens-bank tr').length === 31", SLOW_S)
     photograph(window, "lens")
     fits_a_phone(window, "lens")
+
+
+def test_a_camera_is_carried_round_a_room(window: Chromium, live: Served) -> None:
+    enter(window, live, "locate")
+    says = "document.getElementById('locate-say').textContent"
+    assert "No camera is being carried" in window.run(says)
+    press(window, "locate-begin")
+    window.wait("document.querySelectorAll('#locate-residuals tr').length >= 2", SLOW_S)
+    window.wait(f"parseInt({says}.match(/(\\d+) places/)[1]) >= {PLACES}", SLOW_S)
+    photograph(window, "locate")
+    press(window, "locate-stop")
+    window.wait(f"{says}.includes('stopped by hand')", SLOW_S)
+    fits_a_phone(window, "locate")
 
 
 @pytest.mark.parametrize(

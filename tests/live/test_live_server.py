@@ -81,7 +81,7 @@ def test_a_viewer_is_heard_where_it_may_and_an_operator_always(live: Served, rul
         "robot_id": 1, "x_m": 0.0, "y_m": 0.0, "name": "disperse", "robots": 2, "why": "x",
         "points_m": ((0.0, 0.5),), "value": 0.5,
         "board": "chessboard:9x6:25mm", "uncertainty": "0.5px",
-        "depth_m": 0.4, "turn_deg": 20.0, "tracks": False,
+        "depth_m": 0.4, "turn_deg": 20.0, "tracks": False, "noise_px": 0.1,
     }  # fmt: skip
     asked = rule.message(**{n: values[n] for n in rule.message.__dataclass_fields__})
     before = len(live.runner.asked)

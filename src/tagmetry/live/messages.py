@@ -15,6 +15,7 @@ from tagmetry.live.rooms.calibrate.messages import (
     StartCalibration,
 )
 from tagmetry.live.rooms.lens.messages import LensPicture, LensTrace, StartLens, StopLens
+from tagmetry.live.rooms.locate.messages import LocateTrace, StartLocate, StopLocate
 
 Sender = Literal["server", "page"]
 Role = Literal["viewer", "operator"]
@@ -425,6 +426,7 @@ Told = (
     | CalibrationState
     | LensPicture
     | LensTrace
+    | LocateTrace
 )
 Asked = (
     Beat
@@ -445,6 +447,8 @@ Asked = (
     | SaveCalibration
     | StartLens
     | StopLens
+    | StartLocate
+    | StopLocate
 )
 
 # who sends one of these drives from then on
@@ -484,6 +488,7 @@ CONTRACT = (
     Rule(CalibrationState, "server", "viewer"),
     Rule(LensPicture, "server", "viewer"),
     Rule(LensTrace, "server", "viewer"),
+    Rule(LocateTrace, "server", "viewer"),
     Rule(Beat, "page", "operator"),
     Rule(Seen, "page", "viewer"),
     Rule(Stop, "page", "viewer"),  # stopping is always safe
@@ -502,4 +507,6 @@ CONTRACT = (
     Rule(SaveCalibration, "page", "operator"),
     Rule(StartLens, "page", "operator"),
     Rule(StopLens, "page", "operator"),
+    Rule(StartLocate, "page", "operator"),
+    Rule(StopLocate, "page", "operator"),
 )

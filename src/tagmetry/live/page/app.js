@@ -8,6 +8,7 @@ import { ArenaRoom } from "./rooms/arena.js";
 import { CalibrateRoom } from "./rooms/calibrate.js";
 import { HealthRoom } from "./rooms/health.js";
 import { LensRoom } from "./rooms/lens.js";
+import { LocateRoom } from "./rooms/locate.js";
 import { PrintRoom } from "./rooms/print.js";
 import { RecordingsRoom } from "./rooms/recordings.js";
 import { watchStop } from "./stop.js";
@@ -28,6 +29,7 @@ const rooms = new Rooms([
   new RecordingsRoom(page),
   new CalibrateRoom(page),
   new LensRoom(page),
+  new LocateRoom(page),
   new PrintRoom(),
   new HealthRoom(),
 ]);

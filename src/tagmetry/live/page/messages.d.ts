@@ -329,6 +329,67 @@ export interface LensTrace {
   why: string;
 }
 
+/** A marker of the map. */
+export interface LocateMarker {
+  /** Of its family. */
+  id: number;
+  /** Its left end from above, (x, y) in the world. */
+  left_m: [number, number];
+  /** Its right end. */
+  right_m: [number, number];
+}
+
+/** Where the camera was. */
+export interface LocatePoint {
+  /** In the world. */
+  x_m: number;
+  /** In the world. */
+  y_m: number;
+  /** Above the floor. */
+  z_m: number;
+  /** Where it looks, from the world's x, counter-clockwise. */
+  heading_rad: number;
+  /** Of (x, y), one standard deviation: long and short half axis, m, and the long one's direction, rad. */
+  ellipse: [number, number, number];
+  /** Standard deviations of x, y and z. */
+  sd_m: [number, number, number];
+  /** Of the turns about x, y and z. */
+  sd_rad: [number, number, number];
+  /** (x, y, z) as the simulation has it. */
+  true_m: [number, number, number];
+  /** Squared error by its covariance, six numbers together; 6 on average. */
+  mahalanobis2: number;
+}
+
+/** What a marker of the newest image says. */
+export interface LocateResidual {
+  /** Of its family. */
+  id: number;
+  /** From the camera. */
+  distance_m: number;
+  /** Between its corners and where the pose puts them. */
+  rms_px: number;
+  /** The pose rests on it. */
+  is_used: boolean;
+  /** Why not; empty where it does. */
+  why: string;
+}
+
+/** How a camera found its way. */
+export interface LocateTrace {
+  type: "LocateTrace";
+  /** Images still come. */
+  is_running: boolean;
+  /** The map. */
+  markers: LocateMarker[];
+  /** The newest places, the oldest first. */
+  path: LocatePoint[];
+  /** Of the newest image. */
+  residuals: LocateResidual[];
+  /** Why the newest image has no place, or why it ended; empty otherwise. */
+  why: string;
+}
+
 /** The page that drives is open and looked at; without it for 300 ms, all robots stop. */
 export interface Beat {
   type: "Beat";
@@ -457,6 +518,18 @@ export interface StopLens {
   type: "StopLens";
 }
 
+/** Carry a simulated camera round a room with markers on its walls. */
+export interface StartLocate {
+  type: "StartLocate";
+  /** Standard deviation of every corner's coordinate. */
+  noise_px: number;
+}
+
+/** Stop carrying it. */
+export interface StopLocate {
+  type: "StopLocate";
+}
+
 export type Told =
   | Welcome
   | World
@@ -469,7 +542,8 @@ export type Told =
   | CalibrationPicture
   | CalibrationState
   | LensPicture
-  | LensTrace;
+  | LensTrace
+  | LocateTrace;
 
 export type Asked =
   | Beat
@@ -489,7 +563,9 @@ export type Asked =
   | EndCalibration
   | SaveCalibration
   | StartLens
-  | StopLens;
+  | StopLens
+  | StartLocate
+  | StopLocate;
 
 /** Sends what a page asks for: its type, and its other fields. */
 export type Send = <T extends Asked["type"]>(

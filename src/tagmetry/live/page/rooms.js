@@ -33,8 +33,9 @@ export class Rooms {
 
   mark(room, link) {
     section(room).hidden = room !== this.shown;
-    if (room === this.shown) link.setAttribute("aria-current", "page");
-    else link.removeAttribute("aria-current");
+    if (room !== this.shown) return link.removeAttribute("aria-current");
+    link.setAttribute("aria-current", "page");
+    link.scrollIntoView({ block: "nearest", inline: "nearest" }); // on a phone some are out of sight
   }
 }
 

@@ -9,6 +9,7 @@ from tagmetry.live.messages import Told
 from tagmetry.live.rooms.calibrate.room import calibrate_room
 from tagmetry.live.rooms.floor_errors import floor_errors_room
 from tagmetry.live.rooms.lens.room import lens_room
+from tagmetry.live.rooms.locate.room import locate_room
 from tagmetry.live.rooms.printing import printing_room
 from tagmetry.live.rooms.recordings import recordings_room
 from tagmetry.live.rooms.room import Room
@@ -45,6 +46,7 @@ def opened_rooms(
         floor_errors_room(give),
         calibrate_room(give, furniture.camera, furniture.cameras),
         lens_room(give),
+        locate_room(give),
     )
     try:
         yield rooms

@@ -1,0 +1,1 @@
+"""The room where a camera finds its place by markers whose places are known."""
