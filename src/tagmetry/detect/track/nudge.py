@@ -18,6 +18,7 @@ _AT = (np.arange(_SCANS) + 0.5) / _SCANS - 0.5  # along a side, from its middle
 _REACH = 8  # steps of a profile to each side
 _APART = 3  # steps inside and outside a place, where the values are that are compared
 _COUNT = 2 * _REACH + 1
+_READ = _COUNT + 2 * _APART
 _SHARE = 0.6  # of the steepest step: its middle is midway between where it falls below
 _LEAST_SINE = 0.1
 
@@ -50,10 +51,10 @@ def _find_side(
     along_x, along_y = b[0] - a[0], b[1] - a[1]
     length = max(np.hypot(along_x, along_y), 1e-9)
     across = (step_px * along_y / length, -step_px * along_x / length)  # outward
-    shifts, rises = np.empty(_SCANS), np.empty(_COUNT)
+    shifts, values, rises = np.empty(_SCANS), np.empty(_READ), np.empty(_COUNT)
     for k in range(_SCANS):
         x, y = a[0] + (0.5 + _AT[k]) * along_x, a[1] + (0.5 + _AT[k]) * along_y
-        shifts[k] = _steepest(grey, x, y, across, sign, rises)
+        shifts[k] = _steepest(grey, (x, y), across, sign, values, rises)
     first, last = _ends(shifts)
     line[0], line[1] = a[0] + first * across[0], a[1] + first * across[1]
     line[2], line[3] = b[0] + last * across[0] - line[0], b[1] + last * across[1] - line[1]
@@ -61,15 +62,23 @@ def _find_side(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _steepest(
-    grey: GreyPixels, x: float, y: float, step: tuple[float, float], sign: float, rises: Array
+    grey: GreyPixels,
+    place: tuple[float, float],
+    step: tuple[float, float],
+    sign: float,
+    values: Array,
+    rises: Array,
 ) -> float:
-    """Return where a profile through a place rises most, in steps from the place."""
-    best = 0
+    """Return where a profile through a place rises most, in steps from the place.
+
+    Its values and rises are written.
+    """
+    x, y = place
+    best, far = 0, _REACH + _APART
+    for k in range(_READ):
+        values[k] = bilinear(grey, x + (k - far) * step[0], y + (k - far) * step[1])
     for k in range(_COUNT):
-        before, after = k - _REACH - _APART, k - _REACH + _APART
-        inside = bilinear(grey, x + before * step[0], y + before * step[1])
-        outside = bilinear(grey, x + after * step[0], y + after * step[1])
-        rises[k] = sign * (outside - inside)
+        rises[k] = sign * (values[k + 2 * _APART] - values[k])
         best = k if rises[k] > rises[best] else best
     return 0.5 * (_falls(rises, best, -1) + _falls(rises, best, 1)) - _REACH
 
