@@ -219,3 +219,8 @@ def test_the_text_of_an_experiment_and_of_its_own_rigs_counts() -> None:
     assert "def board_poses()" in text  # of a rig's rig
     assert "def solved_webcam(" in text
     assert "class Stand" not in text  # of another experiment's
+
+
+def test_results_that_are_not_there_are_asked_for(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"none\.parquet: there is no such result .* run"):
+        read_rows(tmp_path / "none.parquet", Row)

@@ -118,6 +118,8 @@ def _type_name(type_: type[Any] | str | Any) -> str:  # noqa: ANN401 (what a fie
 
 
 def _broken(path: Path, error: Exception) -> InputError:
+    if isinstance(error, FileNotFoundError):
+        return InputError(f"{path}: there is no such result of the laboratory; run the experiment")
     why = " ".join(str(error).split())[:120]
     return InputError(
         f"{path}: no whole result of the laboratory ({why}); delete it and run the experiment again"
