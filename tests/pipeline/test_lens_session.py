@@ -30,6 +30,12 @@ def test_a_marker_is_found_and_measured(depth_m: float, turn_deg: float) -> None
     assert abs(turn_about_y_deg(last.found.T_camera_marker)) == pytest.approx(turn_deg, abs=0.5)
 
 
+def test_a_marker_that_takes_nearly_all_the_zoom_converges() -> None:
+    *_, last = measure_marker(still(1.05, 63.0), task(most_images=30))
+    assert last.is_final
+    assert last.found.depth_m == pytest.approx(1.05, rel=3e-3)
+
+
 def test_the_camera_is_left_as_it_was_found() -> None:
     camera = still(0.2)
     before = {name: camera.controls.read(name) for name in camera.controls.available}

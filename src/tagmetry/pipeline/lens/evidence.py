@@ -11,7 +11,7 @@ from tagmetry.lens import LensSetting, Measured, ZoomLens
 
 _TELLING_ZOOM = 1.15
 _NEARLY_ALL, _NEARLY_NONE = 0.25, 0.4  # of the growing, by how much it may be missed
-_MORE = 1.33
+_MORE, _LESS = 1.33, 1.2
 _JUMP = 1.25  # of a marker's size, from an image to the next
 _AROUND = 2.0  # of a marker's side, the room that it needs
 _BLURRED_PX = 2.0  # standard deviation beyond what the setting should leave
@@ -83,10 +83,16 @@ def tells(before: LensSetting, now: LensSetting) -> bool:
 
 
 def telling_zoom(lens: ZoomLens, now: Measured) -> LensSetting:
-    """Return a setting whose zoom tells whether it shows: more of it where the marker has room."""
+    """Return a setting whose zoom tells whether it shows: more, where marker and control have room.
+
+    Less of it is no more than tells, so that small and oblique markers are not lost.
+    """
+    zoom, focus = now.setting.zoom_percent, now.setting.focus
+    more = LensSetting(lens.zoom.nearest(zoom * _MORE), focus)
     has_room = _MORE * _AROUND * now.detection.side_px < min(lens.size_px)
-    zoom = now.setting.zoom_percent * (_MORE if has_room else 1 / _MORE)
-    return LensSetting(lens.zoom.nearest(zoom), now.setting.focus)
+    if has_room and tells(now.setting, more):
+        return more
+    return LensSetting(lens.zoom.nearest(zoom / _LESS), focus)
 
 
 def _zoom_did_not(before: Measured, now: Measured) -> str:
