@@ -14,7 +14,7 @@ import tagmetry.cli.main
 from tagmetry.link.layout import Layout
 from tagmetry.link.wire import BODIES, HEADER
 from tagmetry.live.messages import CONTRACT, Rule
-from tagmetry.live.page_types import page_types
+from tagmetry.live.messages.page_types import page_types
 from tagmetry.markers import family, family_names
 
 DOCS = Path(__file__).parent

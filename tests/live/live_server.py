@@ -11,12 +11,12 @@ from pathlib import Path
 import uvicorn
 from websockets.sync.client import ClientConnection, connect
 
-from tagmetry.live.access import Access
-from tagmetry.live.hub import Hub
 from tagmetry.live.messages import Asked
 from tagmetry.live.rooms.every import Furniture, opened_rooms
 from tagmetry.live.rooms.room import Room
-from tagmetry.live.serving import listening, server
+from tagmetry.live.server.access import Access
+from tagmetry.live.server.hub import Hub
+from tagmetry.live.server.serving import listening, server
 
 
 @dataclass

@@ -3,9 +3,9 @@
 import pytest
 
 from tagmetry.errors import InputError
-from tagmetry.live import access as access_module
-from tagmetry.live.access import Access
 from tagmetry.live.messages import Role
+from tagmetry.live.server import access as access_module
+from tagmetry.live.server.access import Access
 
 
 @pytest.fixture

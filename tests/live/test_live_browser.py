@@ -14,7 +14,7 @@ from live_server import running, served
 from tagmetry.arena.place import Place
 from tagmetry.live.messages import FloorErrors, LiveRobot, World
 from tagmetry.live.opening import LivePage, opened_page
-from tagmetry.live.watch import PATIENCE_S
+from tagmetry.live.show.watch import PATIENCE_S
 
 PICTURES = os.environ.get("LIVE_PICTURES")  # a folder; for the docs
 PHONE, DESK = (390, 844), (1280, 1150)

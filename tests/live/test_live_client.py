@@ -18,7 +18,6 @@ from tagmetry.errors import InputError
 from tagmetry.live.client import LiveClient
 from tagmetry.live.client.mailbox import Mailbox
 from tagmetry.live.client.reading import parse_told
-from tagmetry.live.hub import Hub
 from tagmetry.live.messages import (
     CONTRACT,
     Beat,
@@ -37,7 +36,8 @@ from tagmetry.live.messages import (
     Stop,
     World,
 )
-from tagmetry.live.wire import packed
+from tagmetry.live.messages.wire import packed
+from tagmetry.live.server.hub import Hub
 
 ROBOT = LiveRobot(
     3, "é <b>", 1.0, -0.5, 0.25, 0.0, 0.08, (1.0, 0.5, 0.1), 0.0, True, False, "", "walk",

@@ -12,9 +12,9 @@ from live_server import Served, drained, eventually, heard, served
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection
 
-from tagmetry.live import hub as hub_module
 from tagmetry.live.messages import Picture, Seen, World
-from tagmetry.live.wire import format_message, split_picture
+from tagmetry.live.messages.wire import format_message, split_picture
+from tagmetry.live.server import hub as hub_module
 
 SLOW, HALF_OPEN, HEALTHY = 20, 20, 10
 MESSAGES, STEP_S = 60, 0.02
@@ -148,7 +148,7 @@ def test_pages_are_told_how_messages_reach_them(live: Served) -> None:
 def test_a_page_that_takes_nothing_for_long_is_cut_off(
     live: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("tagmetry.live.pages._PATIENCE_S", 0.2)
+    monkeypatch.setattr("tagmetry.live.server.pages._PATIENCE_S", 0.2)
     with half_open(live):
         eventually(lambda: live.hub.pages == 1)
         end_s = time.monotonic() + 10

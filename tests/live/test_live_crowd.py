@@ -16,7 +16,7 @@ import pytest
 from chromium import Chromium, browser_path
 from live_server import running
 
-from tagmetry.live.memory import resident_bytes
+from tagmetry.live.health.memory import resident_bytes
 from tagmetry.live.opening import LivePage, opened_page
 
 SOAK_S, STEP_S = float(os.environ.get("LIVE_SOAK_S", "180")), 5.0

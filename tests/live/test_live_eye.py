@@ -12,12 +12,12 @@ from live_server import eventually
 from tagmetry.errors import InputError
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.transforms import Rotation
-from tagmetry.live.eye import Look, WatchedEye
 from tagmetry.live.messages import Picture
-from tagmetry.live.painter import Painter, measured
-from tagmetry.live.runner import LiveRunner
-from tagmetry.live.seeing import seeing
-from tagmetry.live.stage import performance
+from tagmetry.live.show.eye import Look, WatchedEye
+from tagmetry.live.show.painter import Painter, measured
+from tagmetry.live.show.runner import LiveRunner
+from tagmetry.live.show.seeing import seeing
+from tagmetry.live.show.stage import performance
 from tagmetry.pipeline.arena_twin.ready import ready_scenario
 
 HERE = RigidTransform.from_components([[0.0, 0.0, 0.0]], Rotation.identity(1))

@@ -12,9 +12,9 @@ from tagmetry.arena import ErrorMap, GridPlace
 from tagmetry.errors import InputError
 from tagmetry.live.client.reading import parse_told
 from tagmetry.live.messages import FloorErrors, MeasureErrors, Told
+from tagmetry.live.messages.wire import format_message
 from tagmetry.live.rooms import floor_errors as room_module
 from tagmetry.live.rooms.floor_errors import floor_errors_room, started, told_errors
-from tagmetry.live.wire import format_message
 from tagmetry.pipeline.arena_twin.ready.floor_errors import GRID, floor_errors
 
 

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from live_server import eventually
 
-from tagmetry.live.advice import Signs, advice
-from tagmetry.live.memory import resident_bytes
+from tagmetry.live.health.advice import Signs, advice
+from tagmetry.live.health.memory import resident_bytes
 from tagmetry.live.messages import Health, StartRecording
-from tagmetry.live.runner import LiveRunner
+from tagmetry.live.show.runner import LiveRunner
 
 WELL = Signs(
     late_s=0.01, image_rate_hz=30.0, wanted_rate_hz=30.0, picture_age_s=0.1,

@@ -31,7 +31,13 @@ from tagmetry.live.messages import (
     Told,
     World,
 )
-from tagmetry.live.wire import MOST_BYTES, format_message, packed, parse_asked, split_picture
+from tagmetry.live.messages.wire import (
+    MOST_BYTES,
+    format_message,
+    packed,
+    parse_asked,
+    split_picture,
+)
 
 ASKED = [
     Beat(), Seen(0.5), Stop(), Stop("a person"), Release(), GoTo(3, -0.5, 0.25), Resume(3),

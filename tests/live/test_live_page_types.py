@@ -10,7 +10,7 @@ import pytest
 
 from tagmetry.live import page
 from tagmetry.live.messages import CONTRACT
-from tagmetry.live.page_types import page_types
+from tagmetry.live.messages.page_types import page_types
 
 FOLDER = Path(str(files(page)))
 PLAIN = {"number", "string", "boolean", "null", "Blob"}

@@ -12,8 +12,8 @@ from live_server import Served, eventually, served
 
 from tagmetry.camera import Image
 from tagmetry.live.messages import LiveMarker, Picture, World
-from tagmetry.live.recording import Recordings
-from tagmetry.live.wire import split_picture
+from tagmetry.live.messages.wire import split_picture
+from tagmetry.live.show.recording import Recordings
 from tagmetry.record.mcap.pieces import PieceWriter
 
 NAME = "one.mcap"

@@ -14,8 +14,6 @@ from tagmetry.arena.controllers import ShieldRules, View
 from tagmetry.arena.drive import STILL, Twist
 from tagmetry.arena.place import Place
 from tagmetry.errors import InputError
-from tagmetry.live import watch as watch_module
-from tagmetry.live.errands import toward_goal
 from tagmetry.live.messages import (
     Asked,
     Beat,
@@ -34,14 +32,16 @@ from tagmetry.live.messages import (
     Told,
     World,
 )
-from tagmetry.live.orders import Order, Orders
-from tagmetry.live.repertoire import Repertoire
-from tagmetry.live.runner import LiveRunner
-from tagmetry.live.stage import performance, steerable
-from tagmetry.live.steered import Steered
-from tagmetry.live.told import ellipse_of, told_markers
-from tagmetry.live.told_stage import told_stage
-from tagmetry.live.watch import BEAT_S, PATIENCE_S, Watch
+from tagmetry.live.show import watch as watch_module
+from tagmetry.live.show.errands import toward_goal
+from tagmetry.live.show.orders import Order, Orders
+from tagmetry.live.show.repertoire import Repertoire
+from tagmetry.live.show.runner import LiveRunner
+from tagmetry.live.show.stage import performance, steerable
+from tagmetry.live.show.steered import Steered
+from tagmetry.live.show.told import ellipse_of, told_markers
+from tagmetry.live.show.told_stage import told_stage
+from tagmetry.live.show.watch import BEAT_S, PATIENCE_S, Watch
 from tagmetry.pipeline.arena_twin import TwinArena
 from tagmetry.pipeline.arena_twin.ready import ready_scenario
 from tagmetry.record.mcap import STATES, read_entries

@@ -11,13 +11,13 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from tagmetry.errors import InputError
-from tagmetry.live.hub import Hub
 from tagmetry.live.messages import CONTRACT, Beat, GoTo, Seen, Stop
+from tagmetry.live.messages.wire import format_message
 from tagmetry.live.page import PARTS
 from tagmetry.live.rooms.every import Furniture, opened_rooms
-from tagmetry.live.server import ROUTES, create_app
-from tagmetry.live.serving import listening
-from tagmetry.live.wire import format_message
+from tagmetry.live.server.app import ROUTES, create_app
+from tagmetry.live.server.hub import Hub
+from tagmetry.live.server.serving import listening
 
 EVIL = "evil.example"
 

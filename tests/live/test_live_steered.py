@@ -5,7 +5,7 @@ import pytest
 from tagmetry.arena.controllers import ShieldRules, View
 from tagmetry.arena.drive import STILL, Twist
 from tagmetry.arena.neighbours import Neighbour
-from tagmetry.live.steered import Steered
+from tagmetry.live.show.steered import Steered
 
 AHEAD = View(0, 0.0, STILL, (Neighbour(1, 0.2, 0.0, 0.0, 0.0), Neighbour(2, 0.2, 3.1, 0.0, 0.0)))
 
@@ -21,7 +21,7 @@ def test_a_leader_on_its_course_slows_before_a_robot_that_was_sent_there(sent, s
 
 def test_robots_know_who_of_them_was_sent():
     pytest.importorskip("mujoco", reason="simulated robots need the extra `robots`")
-    from tagmetry.live.stage import steerable
+    from tagmetry.live.show.stage import steerable
     from tagmetry.pipeline.arena_twin.ready import ready_scenario
 
     _, steered = steerable(ready_scenario("leader_follower", 2))

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from tagmetry.camera import Image
-from tagmetry.live.eye import WatchedEye
+from tagmetry.live.show.eye import WatchedEye
 from tagmetry.pipeline.arena_twin import CornerEye, TwinArena
 from tagmetry.pipeline.arena_twin.ready import ready_scenario
 from tagmetry.pipeline.arena_twin.ready.stage import floor, shot

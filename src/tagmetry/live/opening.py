@@ -10,12 +10,12 @@ from pathlib import Path
 
 import uvicorn
 
-from tagmetry.live.access import Access
-from tagmetry.live.hub import Hub
 from tagmetry.live.rooms.every import Furniture, opened_rooms
-from tagmetry.live.runner import LiveRunner
-from tagmetry.live.seeing import EyeKind
-from tagmetry.live.serving import listening, server
+from tagmetry.live.server.access import Access
+from tagmetry.live.server.hub import Hub
+from tagmetry.live.server.serving import listening, server
+from tagmetry.live.show.runner import LiveRunner
+from tagmetry.live.show.seeing import EyeKind
 
 _STARTING_S = 0.01  # between two looks
 _USUAL = Furniture()

@@ -35,7 +35,7 @@ from tagmetry.live.messages import (
     Welcome,
     World,
 )
-from tagmetry.live.wire import format_message
+from tagmetry.live.messages.wire import format_message
 
 _ROLES = {rule.message: rule.role for rule in CONTRACT}
 _PATIENCE_S = 10.0

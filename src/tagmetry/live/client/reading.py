@@ -9,7 +9,7 @@ from pydantic_core import from_json
 
 from tagmetry.errors import InputError
 from tagmetry.live.messages import CONTRACT, Told
-from tagmetry.live.wire import split_picture
+from tagmetry.live.messages.wire import split_picture
 
 _TOLD = {rule.name: rule.message for rule in CONTRACT if rule.sender == "server"}
 

@@ -13,8 +13,8 @@ from tagmetry.arena import ErrorMap
 from tagmetry.errors import InputError
 from tagmetry.live.client.reading import parse_told
 from tagmetry.live.messages import Asked, FloorErrors, MeasureErrors, Told
+from tagmetry.live.messages.wire import format_message
 from tagmetry.live.rooms.room import Room
-from tagmetry.live.wire import format_message
 from tagmetry.pipeline.arena_twin.ready.floor_errors import GRID, floor_errors
 
 _PATIENCE_S = 600.0

@@ -20,7 +20,7 @@ class Room:
     """A room behind the door.
 
     Attributes:
-        answers: What answers each path; `tagmetry.live.server.ROUTES` says who may ask.
+        answers: What answers each path; `tagmetry.live.server.app.ROUTES` says who may ask.
         takers: What takes each message; `tagmetry.live.messages.CONTRACT` says who may send it.
         close: Ends what runs in the room.
     """

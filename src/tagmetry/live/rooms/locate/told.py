@@ -9,7 +9,7 @@ from tagmetry.detect import Detection
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.live.rooms.locate.messages import LocateMarker, LocatePoint, LocateResidual
 from tagmetry.live.rooms.locate.walk import Looked
-from tagmetry.live.told import ellipse_of
+from tagmetry.live.show.told import ellipse_of
 from tagmetry.localize import CameraHypothesis, MapMarker, MarkerMap
 from tagmetry.markers.bodies import MarkerKey
 

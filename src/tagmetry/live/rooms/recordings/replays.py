@@ -7,8 +7,8 @@ page that replays changes nothing for others.
 from collections import OrderedDict
 from pathlib import Path
 
-from tagmetry.live.recording import PICTURE, WORLD
-from tagmetry.live.wire import joined_picture
+from tagmetry.live.messages.wire import joined_picture
+from tagmetry.live.show.recording import PICTURE, WORLD
 from tagmetry.record.mcap import IMAGES, Timeline
 from tagmetry.record.mcap.images import picture_of
 

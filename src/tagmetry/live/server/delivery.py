@@ -3,8 +3,8 @@
 import asyncio
 import time
 
-from tagmetry.live.hub import Hub
 from tagmetry.live.messages import Delivery
+from tagmetry.live.server.hub import Hub
 
 _EVERY_S, _SENDS_PER_S = 0.5, 250  # to all pages together
 

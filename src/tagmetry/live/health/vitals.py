@@ -5,13 +5,13 @@ import time
 from collections import defaultdict
 from pathlib import Path
 
-from tagmetry.live.advice import Signs, advice
-from tagmetry.live.eye import Look
-from tagmetry.live.memory import resident_bytes
+from tagmetry.live.health.advice import Signs, advice
+from tagmetry.live.health.memory import resident_bytes
+from tagmetry.live.health.rates import Rate
 from tagmetry.live.messages import Health, StageTime, World
-from tagmetry.live.rates import Rate
-from tagmetry.live.recording import Recordings
-from tagmetry.live.stage import Performance
+from tagmetry.live.show.eye import Look
+from tagmetry.live.show.recording import Recordings
+from tagmetry.live.show.stage import Performance
 
 
 class Vitals:

@@ -9,9 +9,9 @@ from tagmetry.arena.drive import Drive, Twist
 from tagmetry.detect import Detection
 from tagmetry.geometry import Array
 from tagmetry.link import Odometry
-from tagmetry.live.errands import Errand
 from tagmetry.live.messages import LiveMarker, LiveRobot, World
-from tagmetry.live.steered import Steered
+from tagmetry.live.show.errands import Errand
+from tagmetry.live.show.steered import Steered
 from tagmetry.markers.bodies import MarkerKey
 from tagmetry.pipeline.arena_twin import Moment, Scenario, TwinRobot
 

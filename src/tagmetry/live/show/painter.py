@@ -14,7 +14,7 @@ import numpy as np
 from tagmetry.arena import Robot
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.live.eye import Look, WatchedEye
+from tagmetry.live.show.eye import Look, WatchedEye
 from tagmetry.pipeline.arena_twin.ready.stage import floor, shot
 from tagmetry.twin.rendering.binned import binned
 from tagmetry.twin.robots.overhead import OverheadPictures

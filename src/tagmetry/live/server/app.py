@@ -10,16 +10,16 @@ from contextlib import asynccontextmanager
 from fastapi import FastAPI, Request, Response
 from starlette.requests import ClientDisconnect
 
-from tagmetry.live.access import Access
-from tagmetry.live.delivery import tell_delivery
-from tagmetry.live.door import behind
-from tagmetry.live.guard import Guard
-from tagmetry.live.hub import Hub
 from tagmetry.live.messages import Role
 from tagmetry.live.page import PARTS, Part
-from tagmetry.live.pages import Pages
 from tagmetry.live.rooms.room import Room
 from tagmetry.live.running import Runner
+from tagmetry.live.server.access import Access
+from tagmetry.live.server.delivery import tell_delivery
+from tagmetry.live.server.door import behind
+from tagmetry.live.server.guard import Guard
+from tagmetry.live.server.hub import Hub
+from tagmetry.live.server.pages import Pages
 
 _MOST_BODY_BYTES = 512
 _PATIENCE_S = 5.0  # for a whole body

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 import uvicorn
 
 from tagmetry.errors import InputError
-from tagmetry.live.access import Access
-from tagmetry.live.hub import MOST_PAGES, Hub
+from tagmetry.live.messages.wire import MOST_BYTES
 from tagmetry.live.rooms.room import Room
 from tagmetry.live.running import Runner
-from tagmetry.live.server import create_app
-from tagmetry.live.wire import MOST_BYTES
+from tagmetry.live.server.access import Access
+from tagmetry.live.server.app import create_app
+from tagmetry.live.server.hub import MOST_PAGES, Hub
 
 _MOST_WAITING = 256
 

@@ -9,9 +9,9 @@ from collections.abc import AsyncIterator
 from dataclasses import dataclass
 
 from tagmetry.errors import InputError
-from tagmetry.live.delays import Delays
+from tagmetry.live.health.delays import Delays
 from tagmetry.live.messages import Told
-from tagmetry.live.wire import packed
+from tagmetry.live.messages.wire import packed
 
 MOST_PAGES = 1100
 

@@ -8,13 +8,13 @@ from itertools import count
 from fastapi import WebSocket
 
 from tagmetry.errors import InputError
-from tagmetry.live.access import Access
-from tagmetry.live.hub import Hub, Slot
 from tagmetry.live.messages import Asked, Picture, Refused, Role, Seen, Welcome
+from tagmetry.live.messages.wire import format_message, parse_asked
 from tagmetry.live.rooms.room import Room
 from tagmetry.live.running import Runner
-from tagmetry.live.watch import BEAT_S
-from tagmetry.live.wire import format_message, parse_asked
+from tagmetry.live.server.access import Access
+from tagmetry.live.server.hub import Hub, Slot
+from tagmetry.live.show.watch import BEAT_S
 from tagmetry.pipeline.arena_twin.ready.stage import FLOOR_HALF_M
 
 SIGN_IN, TOO_MANY, NOT_UNDERSTOOD = 4401, 1013, 1008  # why a socket is closed

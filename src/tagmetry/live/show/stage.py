@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from tagmetry.arena import Roster
 from tagmetry.arena.controllers import ShieldRules
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.live.eye import Look, WatchedEye
-from tagmetry.live.painter import Painter
-from tagmetry.live.seeing import EyeKind, seeing
-from tagmetry.live.steered import Steered
+from tagmetry.live.show.eye import Look, WatchedEye
+from tagmetry.live.show.painter import Painter
+from tagmetry.live.show.seeing import EyeKind, seeing
+from tagmetry.live.show.steered import Steered
 from tagmetry.pipeline.arena_twin import Scenario, TwinArena, TwinRobot
 
 

@@ -7,13 +7,13 @@ import cv2
 import numpy as np
 
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.live.eye import Look
+from tagmetry.live.health.vitals import Vitals
 from tagmetry.live.messages import Picture, Told, World
-from tagmetry.live.recording import Recordings
-from tagmetry.live.stage import Performance
-from tagmetry.live.told import told_markers, told_world
-from tagmetry.live.told_stage import told_stage
-from tagmetry.live.vitals import Vitals
+from tagmetry.live.show.eye import Look
+from tagmetry.live.show.recording import Recordings
+from tagmetry.live.show.stage import Performance
+from tagmetry.live.show.told import told_markers, told_world
+from tagmetry.live.show.told_stage import told_stage
 from tagmetry.pipeline.arena_twin import Moment
 
 _WORLD_S, _HEALTH_S = 1 / 20, 0.5

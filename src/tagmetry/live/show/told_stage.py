@@ -5,8 +5,8 @@ from collections.abc import Iterable
 from tagmetry.arena import Disc, Wall
 from tagmetry.arena.safety import Fence
 from tagmetry.live.messages import LiveParameter, Stage
-from tagmetry.live.stage import Performance
-from tagmetry.live.steered import Steered, parameters_by_name
+from tagmetry.live.show.stage import Performance
+from tagmetry.live.show.steered import Steered, parameters_by_name
 
 
 def told_stage(show: Performance) -> Stage:

@@ -8,7 +8,7 @@ from starlette.datastructures import Headers
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from tagmetry.live.access import Access
+from tagmetry.live.server.access import Access
 
 HEADERS = {
     "content-security-policy": (

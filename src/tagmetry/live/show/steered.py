@@ -23,7 +23,7 @@ from tagmetry.arena.controllers import (
 from tagmetry.arena.controllers.shield import shielded
 from tagmetry.arena.drive import STILL, Twist
 from tagmetry.arena.safety import Fence
-from tagmetry.live.errands import Errand
+from tagmetry.live.show.errands import Errand
 
 _PAUSE_S = 0.2  # a controller that was not asked for longer was paused
 

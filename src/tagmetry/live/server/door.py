@@ -2,9 +2,9 @@
 
 from fastapi import Request, Response
 
-from tagmetry.live.access import Access
 from tagmetry.live.messages import Role
 from tagmetry.live.rooms.room import Answer
+from tagmetry.live.server.access import Access
 
 
 def behind(access: Access, role: Role | None, answer: Answer) -> Answer:

@@ -15,9 +15,6 @@ from typing import Self
 from tagmetry.camera import Image
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.live.commands import command
-from tagmetry.live.eye import Look
-from tagmetry.live.feed import Feed
 from tagmetry.live.messages import (
     DRIVING,
     Asked,
@@ -34,12 +31,15 @@ from tagmetry.live.messages import (
     StopRecording,
     Told,
 )
-from tagmetry.live.orders import Order, Orders
-from tagmetry.live.recording import Recordings
-from tagmetry.live.repertoire import Repertoire
-from tagmetry.live.seeing import EyeKind
-from tagmetry.live.stage import Performance, performance
-from tagmetry.live.watch import Watch
+from tagmetry.live.show.commands import command
+from tagmetry.live.show.eye import Look
+from tagmetry.live.show.feed import Feed
+from tagmetry.live.show.orders import Order, Orders
+from tagmetry.live.show.recording import Recordings
+from tagmetry.live.show.repertoire import Repertoire
+from tagmetry.live.show.seeing import EyeKind
+from tagmetry.live.show.stage import Performance, performance
+from tagmetry.live.show.watch import Watch
 from tagmetry.pipeline.arena_twin.run import TICK_S
 
 _MOST_LATE_S = 0.25  # what is missed beyond is not caught up with

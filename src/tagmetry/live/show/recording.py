@@ -8,7 +8,7 @@ from tagmetry.arena import WorldState
 from tagmetry.camera import Image
 from tagmetry.errors import InputError
 from tagmetry.live.messages import Picture, World
-from tagmetry.live.wire import format_message
+from tagmetry.live.messages.wire import format_message
 from tagmetry.record.mcap import Recorder
 
 WORLD, PICTURE = "/live/World", "/live/Picture"  # topics of what pages were told

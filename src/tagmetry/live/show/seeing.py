@@ -14,8 +14,8 @@ import numpy as np
 
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.transforms import Rotation
-from tagmetry.live.eye import WatchedEye
-from tagmetry.live.painter import Paint, measured, painting
+from tagmetry.live.show.eye import WatchedEye
+from tagmetry.live.show.painter import Paint, measured, painting
 from tagmetry.pipeline.arena_twin import CornerEye, Eye, PictureEye, Scenario
 from tagmetry.pipeline.arena_twin.ready.stage import floor, shot
 

@@ -5,9 +5,9 @@ from math import isfinite
 
 from tagmetry.arena.controllers.parameters import check_range
 from tagmetry.errors import InputError
-from tagmetry.live.errands import Errand, Visit, Wait, Walk
 from tagmetry.live.messages import MOST_POINTS, FollowPath, GoTo, Halt, Resume, SetParameter
-from tagmetry.live.steered import Steered, parameters_by_name
+from tagmetry.live.show.errands import Errand, Visit, Wait, Walk
+from tagmetry.live.show.steered import Steered, parameters_by_name
 from tagmetry.pipeline.arena_twin.ready.stage import FLOOR_HALF_M
 
 RobotOrder = FollowPath | GoTo | Halt | Resume | SetParameter

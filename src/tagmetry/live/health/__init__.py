@@ -1,0 +1,1 @@
+"""How all does: rates, delays, memory, and what to do about it in words."""

@@ -1,0 +1,1 @@
+"""The arena that pages look at: what runs, what people ask of it, what they are told."""
