@@ -41,6 +41,7 @@ from tagmetry.live.show.seeing import EyeKind
 from tagmetry.live.show.stage import Performance, performance
 from tagmetry.live.show.watch import Watch
 from tagmetry.pipeline.arena_twin.run import TICK_S
+from tagmetry.pipeline.steady import steady
 
 _MOST_LATE_S = 0.25  # what is missed beyond is not caught up with
 _GONE = "the page that drives was closed, hidden or cut off"
@@ -151,6 +152,10 @@ class LiveRunner:
             self._orders.put(Order(page, Stop(_GONE)))
 
     def _run(self) -> None:
+        with steady():
+            self._keep_pace()
+
+    def _keep_pace(self) -> None:
         due_s = time.monotonic()
         while not self._is_closing.is_set():
             self._obey()

@@ -6,6 +6,7 @@ from tagmetry.camera import Image
 from tagmetry.pipeline.arena.latency import Latency
 from tagmetry.pipeline.arena.measurement import ArenaMeasurement, ArenaResult
 from tagmetry.pipeline.arena.taker import Taker
+from tagmetry.pipeline.steady import steady
 
 
 def run_arena(
@@ -26,13 +27,14 @@ def run_arena(
         latency: Told how long each image took, until all takers had it.
     """
     try:
-        for image in images:
-            result = measurement.measure(image)
-            for taker in takers:
-                taker.take(result)
-            if latency is not None:
-                latency.add(measurement.clock() - result.taken_s)
-            yield result
+        with steady():
+            for image in images:
+                result = measurement.measure(image)
+                for taker in takers:
+                    taker.take(result)
+                if latency is not None:
+                    latency.add(measurement.clock() - result.taken_s)
+                yield result
     finally:
         _close(list(takers))
 
