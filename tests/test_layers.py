@@ -16,8 +16,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "src" / "tagmetry"
 LAYERS = (
-    "errors", "geometry", "markers", "camera", "detect", "calibrate", "pose", "localize", "lens",
-    "arena", "files", "sources", "twin", "record", "link", "pipeline", "lab", "live", "cli",
+    "errors", "closing", "geometry", "markers", "camera", "detect", "calibrate", "pose", "localize",
+    "lens", "arena", "files", "sources", "twin", "record", "link", "pipeline", "lab", "live", "cli",
 )  # fmt: skip
 PURE = LAYERS[: LAYERS.index("arena") + 1]
 IMPURE_MODULES = {

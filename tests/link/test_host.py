@@ -78,7 +78,7 @@ def test_a_robot_that_a_former_host_stopped_waits_for_a_release() -> None:
         host.stop()
         step_until(robot, lambda: robot.is_stopped)
         port = host.address[1]
-        host.__exit__(None, None, None)
+        host.close()
         with Host({3: KEY}, port=port) as heir:
             step_until(robot, lambda: heir.links()[0].is_stopped)
             assert robot.is_stopped

@@ -312,7 +312,7 @@ def test_records_what_happens(live: Running, tmp_path: Path) -> None:
     live.until(lambda world: world.time_s > then_s + 0.5)
     live.runner.ask(PAGE, StopRecording())
     live.until(lambda _: live.health.recording is None)
-    live.runner.__exit__(None, None, None)
+    live.runner.close()
     topics = [entry.topic for entry in read_entries(tmp_path / name)]
     assert topics.count(STATES) > 8
 

@@ -11,9 +11,9 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
-from types import TracebackType
 from typing import Self
 
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.link.emergency import Emergency
 from tagmetry.link.hearing import Hearing
@@ -39,7 +39,7 @@ def now_us() -> int:
     return time.monotonic_ns() // 1000
 
 
-class Host:
+class Host(Closing):
     """Talks to robots; to be used in a with-block.
 
     Every robot has a key, and nobody without it is heard or obeyed.
@@ -82,12 +82,7 @@ class Host:
         self._thread.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Fall silent: every robot stops by itself."""
         self._is_closing.set()
         self._thread.join()

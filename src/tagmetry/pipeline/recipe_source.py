@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from tagmetry.camera import Image
-from tagmetry.sources.closing import Closing
+from tagmetry.closing import Closing
 from tagmetry.twin.recipe import Recipe, pictures
 
 

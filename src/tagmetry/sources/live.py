@@ -11,10 +11,10 @@ import time
 from collections.abc import Callable, Iterator
 
 from tagmetry.camera import Camera, Image
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.sources.arrivals import Arrivals
-from tagmetry.sources.closing import Closing
 from tagmetry.sources.connection import Opener
 from tagmetry.sources.fit import checked_fit
 from tagmetry.sources.newest import Newest

@@ -5,9 +5,9 @@ from itertools import count
 from pathlib import Path
 
 from tagmetry.camera import Camera, Image
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
-from tagmetry.sources.closing import Closing
 from tagmetry.sources.content import HEAD_BYTES, describe, picture_kind
 from tagmetry.sources.decode import decode_picture
 from tagmetry.sources.fit import checked_fit

@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tagmetry.camera import Camera, Image
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.sources.avlib import open_container
-from tagmetry.sources.closing import Closing
 from tagmetry.sources.content import HEAD_BYTES, describe, is_text
 from tagmetry.sources.decoding import decoded
 from tagmetry.sources.fit import checked_fit

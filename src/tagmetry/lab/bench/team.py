@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
+from tagmetry.closing import Closing
 from tagmetry.lab.bench.case import Case
 from tagmetry.lab.engines import Child, EngineKind, Patience
-from tagmetry.sources.closing import Closing
 
 
 class Team(Closing):

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 
+from tagmetry.closing import Closing
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.lab.engines.engine import EngineKind
 from tagmetry.lab.engines.worker import Answer, serve
-from tagmetry.sources.closing import Closing
 
 _THREAD_VARIABLES = (
     "NUMBA_NUM_THREADS",

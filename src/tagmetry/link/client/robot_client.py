@@ -5,9 +5,8 @@ import select
 import socket
 import time
 from collections.abc import Callable
-from types import TracebackType
-from typing import Self
 
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.link.client.endpoint import Endpoint
 from tagmetry.link.client.robot import Robot
@@ -19,7 +18,7 @@ def _now_us() -> int:
     return time.monotonic_ns() // 1000
 
 
-class RobotClient(Endpoint):
+class RobotClient(Endpoint, Closing):
     """Links a robot with its host; to be used in a with-block.
 
     Call `step` at least every few hundredths of a second, and drive as `command` says after it.
@@ -57,15 +56,7 @@ class RobotClient(Endpoint):
             raise InputError(f"no way to the host {host!r}, port {port}: {error}") from error
         self._socket.setblocking(False)
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Close the socket."""
         self._socket.close()
 

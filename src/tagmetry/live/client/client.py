@@ -8,12 +8,12 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack
-from types import TracebackType
-from typing import Self, TypeVar
+from typing import TypeVar
 
 import cv2
 import numpy as np
 
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.live.client.asking import Asking
@@ -42,7 +42,7 @@ _PATIENCE_S = 10.0
 _Kind = TypeVar("_Kind", bound=Told)
 
 
-class LiveClient(Asking):
+class LiveClient(Asking, Closing):
     """A connection to a live page's server; to be used in a with-block, or closed.
 
     Attributes:
@@ -70,18 +70,6 @@ class LiveClient(Asking):
         except InputError:
             self.close()
             raise
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Close."""
-        self.close()
 
     def close(self) -> None:
         """End the connection; robots stop if this client drove them."""

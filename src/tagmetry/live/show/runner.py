@@ -9,10 +9,10 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 from tagmetry.camera import Image
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.live.messages import (
@@ -47,7 +47,7 @@ _MOST_LATE_S = 0.25  # what is missed beyond is not caught up with
 _GONE = "the page that drives was closed, hidden or cut off"
 
 
-class LiveRunner:
+class LiveRunner(Closing):
     """Runs a scenario for pages; to be used in a with-block."""
 
     def __init__(
@@ -91,12 +91,7 @@ class LiveRunner:
         self._thread.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """End, and finish the recording."""
         self._is_closing.set()
         self._thread.join()

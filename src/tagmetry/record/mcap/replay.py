@@ -5,12 +5,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from tagmetry.camera import Camera, Image
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.record.mcap.images import parse_image
 from tagmetry.record.mcap.pieces import MAGIC, require_mcap
 from tagmetry.record.mcap.reading import read_entries, warn_of_damage
 from tagmetry.record.mcap.topics import IMAGES
-from tagmetry.sources.closing import Closing
 from tagmetry.sources.fit import checked_fit
 
 

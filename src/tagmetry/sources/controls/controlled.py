@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from tagmetry.camera import ControlledSource, Controls, Image, Source
-from tagmetry.sources.closing import Closing
+from tagmetry.closing import Closing
 from tagmetry.sources.controls.open import open_controls
 from tagmetry.sources.controls.v4l2_controls import V4l2Controls
 

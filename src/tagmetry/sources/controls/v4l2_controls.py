@@ -10,8 +10,8 @@ from typing import Self
 
 from tagmetry.camera import Control, ControlRefusedError
 from tagmetry.camera.controls import RULED_BY, control_named
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
-from tagmetry.sources.closing import Closing
 from tagmetry.sources.controls import v4l2
 from tagmetry.sources.controls.v4l2 import Ioctl, Queried
 

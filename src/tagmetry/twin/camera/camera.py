@@ -11,9 +11,9 @@ from dataclasses import replace
 import numpy as np
 
 from tagmetry.camera import Camera, Image
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.geometry import RigidTransform
-from tagmetry.sources.closing import Closing
 from tagmetry.twin.camera.auto import better_exposed, first_climb, sharpness_of
 from tagmetry.twin.camera.development import Taking, image_pixels
 from tagmetry.twin.camera.device import Device

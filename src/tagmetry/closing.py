@@ -1,4 +1,4 @@
-"""What sources and others that hold something share: a `with` block closes them at its end."""
+"""What many that hold something share: a `with` block closes them at its end."""
 
 from abc import ABC, abstractmethod
 from types import TracebackType
