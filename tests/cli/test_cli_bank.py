@@ -82,8 +82,23 @@ def test_shows_calibrations_gaps_and_how_each_is_predicted(
     assert lines[2].endswith("1000.00     640.00     360.00  -")
     assert "px worst" in lines[3]
     assert "GAP: no calibration between focus 20 and 40 (1280x720, zoom 1)" in lines[-1]
+    assert "; half way the focal length is known to " in lines[-1]
+    assert "ONLY TWO" not in "".join(lines)
     assert run(["camera", "show", bank, "--step", "20"]) == 0
     assert "GAP" not in capsys.readouterr().out
+
+
+def test_a_bank_of_two_is_told_that_it_cannot_know_what_lies_between(
+    calibrations: list[str], tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    path = str(tmp_path / "two.yaml")
+    assert run(["camera", "bank", path, calibrations[0], calibrations[-1]]) == 0
+    assert run(["camera", "show", path]) == 0
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert "ONLY TWO, at focus 0 and 50: nothing tells how the camera bends between them" in last
+    assert last.endswith(
+        "half way the focal length is known to 1.4 % (one deviation); calibrate between"
+    )
 
 
 def test_shows_json(bank: str, capsys: pytest.CaptureFixture) -> None:

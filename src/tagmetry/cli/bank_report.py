@@ -55,7 +55,8 @@ def bank_lines(bank: CameraBank, step: float | None = None) -> list[str]:
         approach = f"  {node.approach}" if node.approach else ""
         lines.append(f"  {size:<10} {node.zoom:5g} {node.focus:6g} {numbers}  {text}{approach}")
     step = _step(bank, step)
-    return [*lines, *_gap_lines(bank.gaps(step), step), *_repeat_lines(bank.repeats())]
+    gaps = _gap_lines(bank.gaps(step), step)
+    return [*lines, *gaps, *_two_lines(bank), *_repeat_lines(bank.repeats())]
 
 
 def _finite(row: dict[str, float | None]) -> dict[str, float | None]:
@@ -82,7 +83,26 @@ def _gap_lines(gaps: Sequence[Gap], step: float) -> list[str]:
     return [
         f"  GAP: no calibration between focus {gap.low_focus:g} and {gap.high_focus:g} "
         f"({gap.width_px}x{gap.height_px}, zoom {gap.zoom:g}), more than the step of {step:g}"
+        f"{gap_doubt(gap)}"
         for gap in gaps
+    ]
+
+
+def gap_doubt(gap: Gap) -> str:
+    """Return how well the focal length is known half way, as the end of a sentence."""
+    if gap.focal_sd_percent is None:
+        return "; how exact is not known, as the calibrations state no covariance"
+    return f"; half way the focal length is known to {gap.focal_sd_percent:.2g} % (one deviation)"
+
+
+def _two_lines(bank: CameraBank) -> list[str]:
+    """Say what a bank of two cannot know: none can be left out to test the other."""
+    if len({node.focus for node in bank.nodes}) != 2:
+        return []
+    return [
+        f"  ONLY TWO, at focus {gap.low_focus:g} and {gap.high_focus:g}: nothing tells how the "
+        f"camera bends between them{gap_doubt(gap)}; calibrate between"
+        for gap in bank.gaps(1e-9)
     ]
 
 

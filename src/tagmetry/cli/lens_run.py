@@ -65,10 +65,12 @@ def _task(lens: "ZoomLens", wanted: Wanted) -> "LensTask":
 
 
 def _tell_gaps(task: "LensTask") -> None:
+    from tagmetry.cli.bank_report import gap_doubt
+
     for gap in task.lens.gaps:
         typer.echo(
             f"tagmetry: no calibration between focus {gap.low_focus:g} and {gap.high_focus:g}; "
-            "it is interpolated there",
+            f"it is interpolated there{gap_doubt(gap)}",
             err=True,
         )
 

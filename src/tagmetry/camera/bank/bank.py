@@ -121,7 +121,7 @@ class CameraBank:
         if not step > 0:
             raise InputError(f"the step of the focus must be positive, got {step}")
         return tuple(
-            Gap(*size_px, zoom, low, high)
+            Gap(*size_px, zoom, low, high, _focal_sd_percent(line.camera_at((low + high) / 2)))
             for (size_px, zoom), line in self._lines.items()
             for low, high in zip(line.settings, line.settings[1:], strict=False)
             if high - low > step * (1 + 1e-9)
@@ -228,6 +228,12 @@ def _left_out(line: Line, index: int) -> LeftOut:
         float(np.linalg.norm(shift_px)),
         worst_displacement_px(predicted, camera),
     )
+
+
+def _focal_sd_percent(camera: Camera) -> float | None:
+    if camera.covariance is None:
+        return None
+    return float(100 * np.sqrt(camera.covariance[0, 0]) / camera.focal_px[0])
 
 
 def _check_one_camera(cameras: Sequence[Camera]) -> None:

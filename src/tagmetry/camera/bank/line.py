@@ -5,8 +5,9 @@ from functools import cached_property
 
 import numpy as np
 
+from tagmetry.camera.bank.bends import Bend, bend_at, bend_between_two, unexplained_share
 from tagmetry.camera.bank.between import camera_between, carried_errors
-from tagmetry.camera.bank.parameters import displacement_px, mean_variance_px2, pixel_grid
+from tagmetry.camera.bank.parameters import pixel_grid
 from tagmetry.camera.model import Camera
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import Array
@@ -36,7 +37,7 @@ class Line:
         camera = replace(camera, provenance=f"between {self.control} {low:g} and {high:g}")
         if camera.covariance is None:
             return camera
-        own = carried_errors(camera, self._bends_px * (setting - low) * (high - setting))
+        own = carried_errors(camera, self._bends_px(setting) * (setting - low) * (high - setting))
         return replace(camera, covariance=camera.covariance + own.T @ own)
 
     def left_out(self, index: int) -> Camera:
@@ -46,38 +47,35 @@ class Line:
         cameras = tuple(self.cameras[k] for k in others)
         return camera_between(cameras, settings[others], self.settings[index])
 
+    def _bends_px(self, setting: float) -> Array:
+        """Return the error of interpolating over its leverage, shape (k, n, 2).
+
+        The k squares add up to its variance. It is what leaving out the two neighbours shows over
+        doubled gaps, less the share that noise explains in the whole line; where that cannot be
+        known of them, what all others show.
+        """
+        right = int(np.searchsorted(self.settings, setting))
+        bends = self._bends
+        near = [bends[k] for k in (right - 1, right) if k in bends] or list(bends.values())
+        if not near:
+            return np.zeros((0, len(pixel_grid(self.cameras[0])), 2))
+        errors_px = np.array([bend.error_px for bend in near])
+        return np.asarray(np.sqrt(unexplained_share(bends.values()) / len(near)) * errors_px)
+
     @cached_property
-    def _bends_px(self) -> Array:
-        """The error of interpolating, over (s - low) (high - s), shape (k, n, 2).
+    def _bends(self) -> dict[int, Bend]:
+        """What interpolating costs at each calibration where that is known, by its number."""
+        if len(self.settings) == 2:
+            gap = self.settings[1] - self.settings[0]
+            found = {0: bend_between_two(self.cameras[0], self.cameras[1], gap)}
+        else:
+            found = {k: self._bend_at(k) for k in range(1, len(self.settings) - 1)}
+        return {index: bend for index, bend in found.items() if bend is not None}
 
-        That of a smooth law is bounded by half its second derivative times this product. Leaving
-        calibrations out one by one shows it over doubled gaps, mixed with their noise; the share of
-        the mean square displacement that their covariances do not explain is taken for it. Their
-        squares add up to its variance.
-        """
-        inside = range(1, len(self.settings) - 1)
-        rows = [row for row in map(self._left_out_error, inside) if row is not None]
-        pixel_count = len(pixel_grid(self.cameras[0]))
-        if not rows:
-            return np.zeros((0, pixel_count, 2))
-        errors_px = np.array([error_px for error_px, _ in rows])
-        seen = float(np.nansum(errors_px**2)) / pixel_count
-        explained = sum(by_noise for _, by_noise in rows)
-        share = max(0.0, 1.0 - explained / max(seen, 1e-300))
-        return np.asarray(np.sqrt(share / len(rows)) * errors_px)
-
-    def _left_out_error(self, index: int) -> tuple[Array, float] | None:
-        """Return the displacements of one left out, and their mean square that noise explains.
-
-        None where a covariance is missing.
-        """
-        camera, predicted = self.cameras[index], self.left_out(index)
-        if camera.covariance is None or predicted.covariance is None:
-            return None
+    def _bend_at(self, index: int) -> Bend | None:
         low, setting, high = self.settings[index - 1 : index + 2]
         leverage = (setting - low) * (high - setting)
-        explained = mean_variance_px2(predicted) + mean_variance_px2(camera)
-        return displacement_px(predicted, camera) / leverage, explained / leverage**2
+        return bend_at(self.cameras[index], self.left_out(index), leverage)
 
     def _around(self, setting: float) -> tuple[float, float]:
         right = int(np.searchsorted(self.settings, setting))

@@ -30,13 +30,24 @@ class LeftOut:
 
 @dataclass(frozen=True)
 class Gap:
-    """Two neighbouring calibrations that are farther apart than asked for."""
+    """Two neighbouring calibrations that are farther apart than asked for.
+
+    Attributes:
+        width_px: Columns of their images.
+        height_px: Rows.
+        zoom: Their zoom.
+        low_focus: The lower focus.
+        high_focus: The higher one.
+        focal_sd_percent: Standard deviation of the focal length half way, of the length itself;
+            None where a calibration states none.
+    """
 
     width_px: int
     height_px: int
     zoom: float
     low_focus: float
     high_focus: float
+    focal_sd_percent: float | None
 
 
 @dataclass(frozen=True)
