@@ -89,7 +89,7 @@ def test_a_marker_keeps_its_id_in_motion_blur(smear_px: float, limit_px: float) 
 
 @pytest.mark.parametrize("side_px", [17.0, 30.0, 44.0, 90.0, 140.0])
 def test_new_markers_are_found_within_the_stated_images(side_px: float) -> None:
-    tracker = small_tracker(strips=4)
+    tracker = small_tracker(strips=4, acquire_s=STEP_S)
     bound = tracker.images_to_acquire(*CAMERA.size_px)
     tracker.track(image([]), 0.0)
     for place in ([100, 110], [220, 130], [160, 120]):
@@ -98,6 +98,18 @@ def test_new_markers_are_found_within_the_stated_images(side_px: float) -> None:
         assert [3] in [ids(tracker.track(image(shown), time_s)) for time_s in times]
         tracker.reset()
         tracker.track(image([]), times[-1] + 1.0)
+
+
+@pytest.mark.parametrize("side_px", [18.0, 30.0, 90.0])
+def test_new_markers_are_found_within_the_stated_time(side_px: float) -> None:
+    empty, rng = image([]), np.random.default_rng(4)
+    for appears in range(3, 120, 9):
+        shown = image([Shown(3, *rng.uniform([70, 70], [250, 170]), side_px=side_px)])
+        tracker = small_tracker(strips=4, acquire_s=0.3)
+        found = [
+            tracker.track(empty if k < appears else shown, k / 100) for k in range(appears + 30)
+        ]
+        assert ids(found[-1]) == [3]
 
 
 def test_fewer_strips_find_new_markers_sooner() -> None:

@@ -235,6 +235,7 @@ def test_another_camera_s_size_is_refused() -> None:
     ("wanted", "reason"),
     [
         ({"strips": 0}, "strips must be 1 or more, got 0"),
+        ({"acquire_s": 0.0}, "acquire_s must be positive, got 0.0"),
         ({"forget_s": 0.0}, "forget_s must be positive, got 0.0"),
         ({"fastest_px_s": np.nan}, "fastest_px_s must be positive, got nan"),
     ],

@@ -74,6 +74,8 @@ def squares_at_a_glance(grey: GreyPixels, min_side_px: float, *, bright: bool) -
 def squares_in_turn(grey: GreyPixels, min_side_px: float, turn: int, *, bright: bool) -> Squares:
     """Return what one turn of looks finds: at a glance, then those it leaves out, and so on.
 
+    Every turn finds dark squares of clear contrast that stand alone.
+
     Args:
         grey: 8-bit image.
         min_side_px: Sides shorter than this are passed over.
@@ -82,8 +84,8 @@ def squares_in_turn(grey: GreyPixels, min_side_px: float, turn: int, *, bright: 
     """
     if turn == 0:
         return squares_at_a_glance(grey, min_side_px, bright=bright)
-    looks = (_LEVELS[0], _THIN, _LEVELS[2])[turn - 1]
-    plan: _Plan = dict.fromkeys(_plan(min_side_px), (looks,))
+    looks = ((_LEVELS[0],), (_LEVELS[1], _THIN), (_LEVELS[2],))[turn - 1]
+    plan: _Plan = dict.fromkeys(_plan(min_side_px), looks)
     if turn == 2 and 2.0 in plan:
         plan[2.0] = (_LEVELS[1],)
     return _both(grey, min_side_px, plan, bright)

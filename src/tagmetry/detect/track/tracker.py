@@ -29,6 +29,7 @@ from tagmetry.detect.track.known import Announced, Known, known_at
 from tagmetry.detect.track.lost import Lost
 from tagmetry.detect.track.motion import predicted
 from tagmetry.detect.track.report import detections
+from tagmetry.detect.track.rota import Rota
 from tagmetry.detect.track.search import Search
 from tagmetry.detect.track.seen import Seen
 from tagmetry.detect.track.strips import turns
@@ -45,13 +46,15 @@ class Tracker:
 
     The first image is looked at whole, and so is the first one after a gap longer than `forget_s`
     or of another size: it begins anew then. In every other image, followed markers are looked for
-    where they should be, and new ones in one part of the image; `images_to_acquire` says how many
-    images it takes until every part had its turn.
+    where they should be, and now and then new ones in one part of the image. A new marker has been
+    looked for at its place after `acquire_s`, or after `images_to_acquire` images if that is later.
 
     Args:
         detector: What to look for: a detector, or families for one.
         strips: Into how many strips of rows the image is cut to look for new small markers. More
-            make an image quicker and the time to find a new marker longer.
+            make an image quicker, and the search of all of it takes more images.
+        acquire_s: How soon all of the image is to be searched. Where images come faster than that
+            takes, some of them are not searched.
         forget_s: For how long a marker that is not seen is looked for where it should be.
         fastest_px_s: How fast a marker may move that was seen once only.
     """
@@ -61,16 +64,19 @@ class Tracker:
         detector: Detector | Iterable[str | MarkerFamily] = ("tag36h11",),
         *,
         strips: int = 16,
+        acquire_s: float = 0.5,
         forget_s: float = 0.5,
         fastest_px_s: float = 1200.0,
     ) -> None:
         self.detector = detector if isinstance(detector, Detector) else Detector(detector)
         if strips < 1:
             raise InputError(f"strips must be 1 or more, got {strips}")
-        for name, value in (("forget_s", forget_s), ("fastest_px_s", fastest_px_s)):
+        times = ("acquire_s", acquire_s), ("forget_s", forget_s), ("fastest_px_s", fastest_px_s)
+        for name, value in times:
             if not 0 < value < np.inf:
                 raise InputError(f"{name} must be positive, got {value}")
         self.strips = strips
+        self.acquire_s = acquire_s
         self.forget_s = forget_s
         self.fastest_px_s = fastest_px_s
         self._search = Search(self.detector.families, self.detector.rules)
@@ -80,7 +86,7 @@ class Tracker:
     def reset(self) -> None:
         """Forget everything: the next image may be of another time, camera or place."""
         self._tracks = Tracks.none()
-        self._turn = 0
+        self._rota = Rota.begun(0.0)
         self._time_s: float | None = None
         self._size_px: tuple[int, int] | None = None
 
@@ -103,11 +109,12 @@ class Tracker:
         )
 
     def images_to_acquire(self, width_px: int, height_px: int) -> int:
-        """Return after how many images of a size a new marker has been looked for at its place.
+        """Return in how many images of a size, one part each, all of it is searched.
 
-        That is a bound for markers of all sizes that move less than 16 px per image, and that a
-        glance finds. Those with faint borders, or that touch what is beside them, take four times
-        as many at most: the looks that they need take turns.
+        After so many, but not before `acquire_s`, a new marker has been looked for at its place.
+        That is a bound for markers of all sizes that move less than 16 px between searches, and
+        that a glance finds. Those with faint borders, or that touch what is beside them, take four
+        times as long at most: the looks that they need take turns.
         """
         return len(turns(height_px, self._least_px((width_px, height_px)), self.strips))
 
@@ -159,14 +166,20 @@ class Tracker:
         since_s = self._since_s(size_px, time_s)
         known = known_at(self._tracks, self._announced, time_s, since_s, self.fastest_px_s)
         expected = as_expected(looked_at, families, self.detector.rules, known)
-        seen, exact = self._searched_and_measured(looked_at, known, expected, camera)
+        new = self._new_parts(size_px, time_s, since_s)
+        seen, exact = self._searched_and_measured(looked_at, known, expected, new, camera)
         self._tracks = followed(known, seen, exact, time_s, self.forget_s)
-        self._time_s, self._size_px, self._turn = time_s, size_px, self._turn + 1
+        self._time_s, self._size_px = time_s, size_px
         self._announced = []
         return detections(seen, exact, families, size_px)
 
     def _searched_and_measured(
-        self, looked_at: Greyed, known: Known, expected: Seen, camera: Camera | None
+        self,
+        looked_at: Greyed,
+        known: Known,
+        expected: Seen,
+        new: list[Part],
+        camera: Camera | None,
     ) -> tuple[Seen, Exact]:
         """Return the markers that are reported, with their exact corners.
 
@@ -175,7 +188,7 @@ class Tracker:
         """
         looks, families = known.tracks.looks[expected.rows], self.detector.families
         found, exact = both(
-            partial(self._found, looked_at, known, expected),
+            partial(self._found, looked_at, known, expected, new),
             partial(_measured, looked_at, expected, looks, families, camera),
         )
         unknown = np.full((len(found), LOOK_COUNT), np.nan)
@@ -205,15 +218,19 @@ class Tracker:
         self.reset()
         return 0.0
 
-    def _new_part(self, size_px: tuple[int, int]) -> Part:
-        """Return what part of the image is searched for new markers."""
+    def _new_parts(self, size_px: tuple[int, int], time_s: float, since_s: float) -> list[Part]:
+        """Return what is searched for new markers: all, one part or none; the rota moves on."""
         if self._time_s is None:
-            return whole(size_px, self._least_px(size_px))
+            self._rota = Rota.begun(time_s)
+            return [whole(size_px, self._least_px(size_px))]
+        if time_s < self._rota.due_s:
+            return []
         plan = turns(size_px[1], self._least_px(size_px), self.strips)
-        rounds, place = divmod(self._turn, len(plan))
-        return turn_part(plan[place], size_px[0], rounds % TURNS)
+        rounds, place = divmod(self._rota.turn, len(plan))
+        self._rota = self._rota.after(time_s, since_s, self.acquire_s, len(plan))
+        return [turn_part(plan[place], size_px[0], rounds % TURNS)]
 
-    def _found(self, looked_at: Greyed, known: Known, expected: Seen) -> Seen:
+    def _found(self, looked_at: Greyed, known: Known, expected: Seen, new: list[Part]) -> Seen:
         """Return the markers that searching finds beside those that were seen where expected."""
         is_lost = np.ones(len(known.tracks), dtype=bool)
         is_lost[expected.rows] = False
@@ -221,7 +238,7 @@ class Tracker:
         around = parts_around(known, is_lost, size_px, self._least_px(size_px))
         found = [
             one
-            for part in [*around, self._new_part(size_px)]
+            for part in [*around, *new]
             for one in self._search.candidates(looked_at, part, expected.corners_px)
         ]
         return claimed(best_per_place(found), known, is_lost, self.detector.families)
