@@ -3,10 +3,10 @@ from pathlib import Path
 from tagmetry.live.client import LiveClient
 from tagmetry.live.opening import opened_page
 
+# usually `tagmetry live` runs, and prints URL and token
 here = ("127.0.0.1", 0, Path("recordings"))
 with (
     opened_page("leader_follower", 2, *here, pictures=False) as page,
-    page.served_beside(),  # usually `tagmetry live` runs, and prints URL and token
     LiveClient(page.url, page.token) as live,
 ):
     live.set_parameter("length_m", 0.25)  # of the spring that ties the follower

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from chromium import Chromium, browser_path
-from live_server import running, served
+from live_server import served
 
 from tagmetry.arena.place import Place
 from tagmetry.live.messages import FloorErrors, LiveRobot, World
@@ -26,7 +26,6 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LivePage]:
     folder = tmp_path_factory.mktemp("recordings")
     with (
         opened_page("leader_follower", 12, "127.0.0.1", 0, folder, pictures=bool(PICTURES)) as own,
-        running(own.server, own.socket),
     ):
         yield own
 

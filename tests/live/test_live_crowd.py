@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from chromium import Chromium, browser_path
-from live_server import running
 
 from tagmetry.live.health.memory import resident_bytes
 from tagmetry.live.opening import LivePage, opened_page
@@ -27,7 +26,6 @@ HEALTHY, SLOW, HALF_OPEN = 900, 50, 50
 def page(tmp_path: Path) -> Iterator[LivePage]:
     with (
         opened_page("leader_follower", 12, "127.0.0.1", 0, tmp_path) as own,
-        running(own.server, own.socket),
     ):
         time.sleep(8)  # the floor is lit
         yield own
@@ -42,7 +40,7 @@ def image_rate_hz(page: LivePage, seconds: float) -> float:
 
 @pytest.mark.slow
 def test_a_thousand_pages_delay_nothing(page: LivePage) -> None:
-    port = page.socket.getsockname()[1]
+    port = int(page.url.rstrip("/").rsplit(":", 1)[1])
     alone_hz = image_rate_hz(page, 10)
     script = [sys.executable, str(Path(__file__).with_name("crowd.py")), str(port)]
     counts = ["--healthy", str(HEALTHY), "--slow", str(SLOW), "--half-open", str(HALF_OPEN)]

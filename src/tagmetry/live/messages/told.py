@@ -76,7 +76,7 @@ class Health:
         stages: The steps of an image's way.
         worst_loss: Share of packets that do not arrive, of the robot that loses most.
         least_battery_v: Of the robot that has least; None before one told.
-        memory_bytes: That the server holds; None where the system does not say.
+        memory_bytes: That the arena's program holds; None where the system does not say.
         disk_free_bytes: Where recordings go; None where that is not known.
         dropped_count: What the recording could not write in time.
         advice: What is wrong and what to do, a line each; none while all is well.

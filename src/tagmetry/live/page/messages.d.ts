@@ -166,7 +166,7 @@ export interface Health {
   worst_loss: number;
   /** Of the robot that has least; None before one told. */
   least_battery_v: number | null;
-  /** That the server holds; None where the system does not say. */
+  /** That the arena's program holds; None where the system does not say. */
   memory_bytes: number | null;
   /** Where recordings go; None where that is not known. */
   disk_free_bytes: number | null;

@@ -20,17 +20,18 @@ _MOST_SESSIONS, _TRIES, _TRIES_S = 64, 10, 60.0
 class Access:
     """The keeper of one server's door."""
 
-    def __init__(self, address: str, port: int) -> None:
-        """Draw a token.
+    def __init__(self, address: str, port: int, token: str | None = None) -> None:
+        """Hang the door.
 
         Args:
             address: That the server listens at: an interface's, not a name.
             port: That it listens at.
+            token: That another program of this server drew; None draws one.
 
         Raises:
             InputError: The address is none, or stands for all interfaces.
         """
-        self.token = secrets.token_urlsafe(_TOKEN_BYTES)
+        self.token = token or secrets.token_urlsafe(_TOKEN_BYTES)
         self.cookie = f"tagmetry_live_{port}"  # ports of one host share their cookies
         self.is_loopback = _checked(address).is_loopback
         self._hosts = _hosts(address, port, self.is_loopback)

@@ -5,29 +5,34 @@ nobody waited for it.
 """
 
 import asyncio
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from dataclasses import dataclass
+from itertools import count
+from typing import TypeVar
 
 from tagmetry.errors import InputError
 from tagmetry.live.health.delays import Delays
-from tagmetry.live.messages import Told
-from tagmetry.live.messages.wire import packed
+from tagmetry.live.messages import Refused, Told
+from tagmetry.live.messages.wire import format_message, packed
 
 MOST_PAGES = 1100
 
 
 Frame = str | bytes
+_What = TypeVar("_What", int, str)
 
 
 class Slot:
     """What one page has not taken yet.
 
     Attributes:
+        page: Its number.
         told: Messages that it took.
         missed: Messages that a newer one replaced before it took them.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, page: int = 0) -> None:
+        self.page = page
         self.told = self.missed = 0
         self._newest: dict[str, Frame] = {}
         self._paced: set[str] = set()
@@ -89,6 +94,7 @@ class Hub:
         self.delays = Delays()
         self._gone = Counts(0, 0)
         self._slots: set[Slot] = set()
+        self._numbers = count(1)
         self._last: dict[str, Frame] = {}
         self._loop: asyncio.AbstractEventLoop | None = None
 
@@ -120,7 +126,7 @@ class Hub:
         """
         if len(self._slots) >= MOST_PAGES:
             raise InputError(f"{MOST_PAGES} pages are connected already")
-        slot = Slot()
+        slot = Slot(next(self._numbers))
         for kind, frame in dict(self._last).items():
             slot.put(kind, frame)
         self._slots.add(slot)
@@ -136,14 +142,32 @@ class Hub:
 
         What is told while the server does not run yet, its first page will find.
         """
-        loop, frame = self._loop, packed(message)
-        if loop is None:
-            self._last[type(message).__name__] = frame
-            return
+        self.pass_on(type(message).__name__, packed(message))
+
+    def pass_on(self, kind: str, frame: Frame) -> None:
+        """Tell all pages what was packed elsewhere; from any thread, and returns at once."""
+        if self._loop is None:
+            self._last[kind] = frame
+        else:
+            self._call(self._spread, kind, frame)
+
+    def refuse(self, page: int, refused: Refused) -> None:
+        """Tell one page, by its number, that what it asked for was not done; from any thread."""
+        self._call(self._tell_one, page, format_message(refused))
+
+    def _call(self, do: Callable[[_What, Frame], None], what: _What, frame: Frame) -> None:
+        """Do something in the server's loop, if there is one."""
+        loop = self._loop
         try:
-            loop.call_soon_threadsafe(self._spread, type(message).__name__, frame)
+            if loop is not None:
+                loop.call_soon_threadsafe(do, what, frame)
         except RuntimeError:
             self._loop = None  # the server has ended meanwhile
+
+    def _tell_one(self, page: int, frame: Frame) -> None:
+        for slot in self._slots:
+            if slot.page == page:
+                slot.put(Refused.__name__, frame)
 
     def _spread(self, kind: str, frame: Frame) -> None:
         self._last[kind] = frame

@@ -3,7 +3,6 @@
 import asyncio
 import time
 from collections.abc import Sequence
-from itertools import count
 
 from fastapi import WebSocket
 
@@ -30,7 +29,6 @@ class Pages:
     ) -> None:
         self._access, self._hub, self._runner = access, hub, runner
         self._takers = {kind: take for room in rooms for kind, take in room.takers.items()}
-        self._numbers = count(1)
 
     async def serve(self, socket: WebSocket) -> None:
         """Serve one page."""
@@ -47,7 +45,7 @@ class Pages:
         await self._until_gone(socket, slot, role)
 
     async def _until_gone(self, socket: WebSocket, slot: Slot, role: Role) -> None:
-        page = next(self._numbers)
+        page = slot.page
         self._runner.viewers = self._hub.pages
         slot.first(self._welcome(role))
         both = {
