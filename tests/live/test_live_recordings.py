@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 from live_server import Served, eventually, served
 
+from tagmetry.arena import RobotState, WorldState
 from tagmetry.camera import Image
 from tagmetry.live.messages import LiveMarker, Picture, World
 from tagmetry.live.messages.wire import split_picture
 from tagmetry.live.show.recording import Recordings
+from tagmetry.record.mcap import Recorder
 from tagmetry.record.mcap.pieces import PieceWriter
 
 NAME = "one.mcap"
@@ -105,6 +107,42 @@ def test_shows_again_what_was_seen(live: Served, folder: Path) -> None:
     assert pixels.shape == (48, 64)
     assert abs(float(pixels.mean()) - 190) < 3
     assert asked(live, "picture?at=0")[0] == 204  # no picture yet
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a recording as `tagmetry arena run --record` writes it: states and lossless images."""
+    path = tmp_path_factory.mktemp("run") / NAME
+    with Recorder(path) as recorder:
+        for number in range(10):
+            covariance = np.diag([4e-6, 1e-6, 1e-4, 1e-4, 1e-4])
+            robot = RobotState(
+                7, "<i>", 0.1 * number, -0.2, 0.3, 0.4, 0.0, covariance, 0.0, True, float(number)
+            )
+            recorder.state(WorldState(float(number), (robot,)))
+            recorder.image(Image(np.full((50, 2000), 10 * number, np.uint8), number, "capture"))
+            time.sleep(0.02)
+    return path
+
+
+def test_a_run_that_no_page_saw_is_seen_as_well(live: Served, folder: Path, run: Path) -> None:
+    import cv2
+
+    (folder / NAME).write_bytes(run.read_bytes())
+    first, last = (json.loads(asked(live, f"world?at={at_s}")[1]) for at_s in (0, 1000))
+    assert (first["time_s"], last["time_s"]) == (0.0, 9.0)
+    robot = last["robots"][0]
+    assert (robot["id"], robot["name"], robot["is_seen"]) == (7, "<i>", True)
+    assert robot["x_m"] == pytest.approx(0.9)
+    assert robot["ellipse"][:2] == pytest.approx([2e-3, 1e-3])
+    assert robot["battery_v"] is None
+    text, jpeg = split_picture(asked(live, "picture?at=1000")[1])
+    pixels = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_GRAYSCALE)
+    told = json.loads(text)
+    assert (told["time_s"], told["width_px"], told["height_px"]) == (9.0, 1000, 25)
+    assert told["markers"] == []
+    assert pixels.shape == (25, 1000)
+    assert abs(float(pixels.mean()) - 90) < 2
 
 
 def test_markers_are_shown_on_their_own_picture_or_not_at_all(

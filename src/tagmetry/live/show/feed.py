@@ -14,6 +14,7 @@ from tagmetry.live.show.recording import Recordings
 from tagmetry.live.show.stage import Performance
 from tagmetry.live.show.told import told_markers, told_world
 from tagmetry.live.show.told_stage import told_stage
+from tagmetry.pipeline.arena import StageTimes
 from tagmetry.pipeline.arena_twin import Moment
 
 _WORLD_S, _HEALTH_S = 1 / 20, 0.5
@@ -50,6 +51,7 @@ class Feed:
             took_s: Time that it took.
         """
         self.vitals.image(took_s)
+        self._count(moment.turn.times)
         began_s = time.monotonic()
         if began_s - self._world_s >= max(_WORLD_S, self.vitals.viewers / _WORLD_SENDS_PER_S):
             self._world_s = began_s
@@ -57,6 +59,11 @@ class Feed:
             self.vitals.world(world)
             self._tell(world)
             self.vitals.stage("to tell pages", time.monotonic() - began_s)
+
+    def _count(self, times: StageTimes) -> None:
+        self.vitals.stage("to follow the robots", times.follow_s)
+        self.vitals.stage("to tell robots what they may know", times.tell_s)
+        self.vitals.stage("to decide and to ask controllers", times.drive_s)
 
     def stage(self, show: Performance) -> None:
         """Tell what robots are among."""
@@ -68,11 +75,11 @@ class Feed:
         if began_s - self._picture_s < self.vitals.viewers / _PICTURE_SENDS_PER_S:
             return
         self._picture_s = began_s
-        small = _halved(pixels) if pixels.shape[1] > _MOST_WIDTH_PX else pixels
+        small = small_enough(pixels)
         height_px, width_px = small.shape[:2]
         scale = width_px / show.arena.scenario.view.camera.width_px
         markers = told_markers(look.detections, show.roster, scale)
-        self._tell(Picture(look.time_s, look.taken_s, width_px, height_px, markers, _jpeg(small)))
+        self._tell(Picture(look.time_s, look.taken_s, width_px, height_px, markers, jpeg_of(small)))
         self.vitals.picture(look)
         self.vitals.stage("to look", look.took_s)
         self.vitals.stage("from an image to its picture", time.monotonic() - look.taken_s)
@@ -89,10 +96,14 @@ class Feed:
         self._give(message)
 
 
-def _halved(pixels: AnyPixels) -> AnyPixels:
+def small_enough(pixels: AnyPixels) -> AnyPixels:
+    """Return a picture as pages get it: one that is too wide has half its pixels a side."""
+    if pixels.shape[1] <= _MOST_WIDTH_PX:
+        return pixels
     return np.asarray(cv2.resize(pixels, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA))
 
 
-def _jpeg(pixels: AnyPixels) -> bytes:
+def jpeg_of(pixels: AnyPixels) -> bytes:
+    """Return a picture's file."""
     _, packed = cv2.imencode(".jpg", pixels, [cv2.IMWRITE_JPEG_QUALITY, _JPEG_QUALITY])
     return packed.tobytes()
