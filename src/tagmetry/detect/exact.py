@@ -1,7 +1,7 @@
 """The best that can be said of corners: whole pictures where they fit, else the sides alone."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
@@ -32,8 +32,14 @@ class Exact(Corners):
 
     def and_also(self, others: Self) -> Self:
         """Return these corners and others."""
-        pairs = [(getattr(self, one.name), getattr(others, one.name)) for one in fields(self)]
+        if not len(others):
+            return self
+        pairs = zip(vars(self).values(), vars(others).values(), strict=True)
         return type(self)(*(np.concatenate(pair) for pair in pairs))
+
+    def __len__(self) -> int:
+        """The number of markers."""
+        return len(self.corners_px)
 
     def at(self, which: BoolArray) -> Self:
         """Return some of them."""

@@ -1,7 +1,7 @@
 """The markers that an image shows, before their corners are measured exactly."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
@@ -96,16 +96,21 @@ class Seen:
 
     def at(self, rows: IntArray | BoolArray) -> Self:
         """Return some of the markers."""
-        return type(self)(*(getattr(self, field.name)[rows] for field in fields(self)))
+        return type(self)(*(values[rows] for values in vars(self).values()))
 
     def and_also(self, others: Self) -> Self:
         """Return these markers and others."""
-        pairs = [(getattr(self, one.name), getattr(others, one.name)) for one in fields(self)]
+        if not len(others):
+            return self
+        pairs = zip(vars(self).values(), vars(others).values(), strict=True)
         return type(self)(*(np.concatenate(pair) for pair in pairs))
 
     def count_of_each(self) -> IntArray:
         """Return how often the family and id of each are there, shape (n,)."""
         keys = self.families * _MOST_IDS + self.ids
+        in_order = np.sort(keys)
+        if not (in_order[1:] == in_order[:-1]).any():
+            return np.ones(len(keys), dtype=np.int64)
         _, which, counts = np.unique(keys, return_inverse=True, return_counts=True)
         return np.asarray(counts[which])
 

@@ -138,11 +138,14 @@ def look(
 def _on_edges(
     grey: GreyPixels, corners_px: Array, deviation_px: Array, sign: Array, side_cells: int
 ) -> Array:
-    """Return squares moved onto the edges close by, at first coarsely, then finely."""
+    """Return squares moved onto the edges close by: from afar at first coarsely, then finely."""
     reach_px = nudge_reach_px(corners_px, deviation_px, side_cells)
     near_px = nudged(grey, corners_px, reach_px, sign)
     fine_px = np.maximum(_FINE_CELLS * _cell_px(near_px, side_cells), _LEAST_FINE_PX)
-    return nudged(grey, near_px, fine_px, sign)
+    again = reach_px > fine_px
+    if again.any():
+        near_px[again] = nudged(grey, near_px[again], fine_px[again], sign[again])
+    return near_px
 
 
 def _read(

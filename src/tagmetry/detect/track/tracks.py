@@ -1,6 +1,6 @@
 """The markers that are followed: where each was seen last, and how it moved."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
@@ -79,9 +79,11 @@ class Tracks:
 
     def at(self, rows: IntArray | BoolArray) -> Self:
         """Return some of the markers."""
-        return type(self)(*(getattr(self, field.name)[rows] for field in fields(self)))
+        return type(self)(*(values[rows] for values in vars(self).values()))
 
     def and_also(self, others: Self) -> Self:
         """Return these markers and others."""
-        pairs = [(getattr(self, one.name), getattr(others, one.name)) for one in fields(self)]
+        if not len(others):
+            return self
+        pairs = zip(vars(self).values(), vars(others).values(), strict=True)
         return type(self)(*(np.concatenate(pair) for pair in pairs))
