@@ -9,7 +9,9 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from math import isnan
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,9 +24,8 @@ from tagmetry.geometry.arrays import BoolArray, IntArray
 _KEPT = 4096  # worlds, for what is told late
 
 
-@dataclass(frozen=True)
-class Neighbour:
-    """Another robot as a robot senses it.
+class Neighbour(NamedTuple):
+    """Another robot as a robot senses it; thousands are made of an image, hence a tuple.
 
     Attributes:
         id: Of the neighbour.
@@ -83,6 +84,16 @@ class _Crowd:
     def rows(self) -> Mapping[int, int]:
         """Of the robots, by id."""
         return {robot.id: row for row, robot in enumerate(self.world.robots)}
+
+    @cached_property
+    def ids(self) -> IntArray:
+        """Shape (n,)."""
+        return np.array([one.id for one in self.world.robots], dtype=np.int64)
+
+    @cached_property
+    def ages_s(self) -> Array:
+        """Time since the image that each rests on, shape (n,)."""
+        return np.array([one.age_s for one in self.world.robots], dtype=np.float64)
 
     @cached_property
     def places(self) -> Array:
@@ -167,22 +178,21 @@ class Neighbourhood:
         self, crowd: _Crowd, ids: Sequence[int], sensor: NeighbourSensor, time_s: float
     ) -> list[tuple[Neighbour, ...]]:
         """Return whom each of some robots senses, the nearest first."""
-        robots, rows = crowd.world.robots, np.array([crowd.rows[one] for one in ids])
+        rows = np.array([crowd.rows[one] for one in ids])
         is_sensed = self._sensed_of(crowd, rows, sensor)
         who, whom = np.nonzero(is_sensed)
         ranges, bearings = (values[rows[who], whom] for values in crowd.polar)
         turns = crowd.places[whom, 2] - crowd.places[rows[who], 2]
         draws = self._draws(ids, is_sensed.sum(axis=1).tolist(), sensor)
         told = sensed(np.stack([ranges, bearings, turns], axis=-1), sensor, *draws)
-        late_s = time_s - crowd.world.time_s
-        found: list[list[Neighbour]] = [[] for _ in ids]
         order = np.lexsort((told[:, 0], who))
-        for k, m, values in zip(*(one[order].tolist() for one in (who, whom, told)), strict=True):
-            range_m, bearing_rad, turn_rad = values
-            if not isnan(range_m):  # else it dropped out
-                age_s = robots[m].age_s + late_s
-                found[k].append(Neighbour(robots[m].id, range_m, bearing_rad, turn_rad, age_s))
-        return [tuple(seen[: sensor.most]) for seen in found]
+        order = order[~np.isnan(told[order, 0])]  # the others dropped out
+        numbers, ages_s = crowd.ids[whom[order]], crowd.ages_s[whom[order]]
+        ages_s = ages_s + (time_s - crowd.world.time_s)
+        columns = (one.tolist() for one in (numbers, *told[order].T, ages_s))
+        seen = tuple(map(Neighbour._make, zip(*columns, strict=True)))
+        ends = np.searchsorted(who[order], np.arange(len(ids) + 1)).tolist()
+        return [seen[first:last][: sensor.most] for first, last in pairwise(ends)]
 
     def _sensed_of(self, crowd: _Crowd, rows: IntArray, sensor: NeighbourSensor) -> BoolArray:
         """Say which of all robots (columns) those of some rows have within sight, shape (m, n)."""
