@@ -6,10 +6,13 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import typer
 
 if TYPE_CHECKING:
     from tagmetry.pipeline.lens import LensStep
+
+_TELLING = 0.01  # a probability worth a word
 
 
 def told(steps: "Iterable[LensStep]", out: Path | None, *, json_: bool) -> "LensStep | None":
@@ -46,5 +49,11 @@ def step_line(step: "LensStep") -> str:
     told = f"; {step.reason}" if step.reason else ""
     return (
         f"{head}id {found.detection.id} depth {1000 * found.depth_m:8.2f} mm "
-        f"± {1000 * found.depth_sd_m:.2f}{tail}{told}"
+        f"± {1000 * found.depth_sd_m:.2f}, turn ± {np.degrees(found.turn_sd_rad):.2f} degrees"
+        f"{_other_pose(found.pose.ambiguity)}{tail}{told}"
     )
+
+
+def _other_pose(ambiguity: float) -> str:
+    """Say how probable the other of a flat marker's two poses is, where that counts."""
+    return f" (other pose {100 * ambiguity:.0f} %)" if ambiguity > _TELLING else ""

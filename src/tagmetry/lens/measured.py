@@ -1,11 +1,8 @@
 """A marker's pose with all that it is unsure of: noise, model, calibration and size.
 
 The corners' own covariance holds the image's noise. To it are added what no fit of so few pixels
-can know (`accuracy`), and the errors of calibration and size, carried to the pose by
-
-    d(pose) = (J^T C^-1 J)^-1 J^T C^-1 d(pixels)
-
-with J the corners' derivatives by the pose, C their covariance. Where the other of a flat marker's
+can know (`accuracy`), and the errors of calibration, size and a blur that is not the same all over
+the marker, carried to the pose (`corner_errors`). Where the other of a flat marker's
 two poses is possible too, the way to it counts with its probability.
 """
 
@@ -14,15 +11,14 @@ from functools import cached_property
 
 import numpy as np
 
-from tagmetry.camera import Camera
 from tagmetry.detect import Detection
-from tagmetry.geometry import Array, RigidTransform, cross_matrix, pose_difference
+from tagmetry.geometry import Array, RigidTransform, pose_difference
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.lens.accuracy import DESCRIBED_PX, unmodelled_px
+from tagmetry.lens.corner_errors import CornerErrors
 from tagmetry.lens.readable import MarkerKind
 from tagmetry.lens.setting import LensSetting
 from tagmetry.lens.zoom_lens import ZoomLens
-from tagmetry.markers import marker_corners_m
 from tagmetry.pose import MarkerPose, estimate_pose
 
 
@@ -99,8 +95,9 @@ def measured(
     pose = estimate_pose(known, camera, marker.size_m)
     if not pose.hypotheses:
         return None
-    covariance = pose.covariance + _of_calibration_and_size(pose, known, camera, marker)
-    covariance = covariance + _of_alternatives(pose)
+    errors = CornerErrors(pose.best.T_camera_marker, known.corners_cov_px2, camera, marker)
+    covariance = pose.covariance + errors.of_calibration() + errors.of_size()
+    covariance = covariance + errors.of_uneven_blur(lens, setting) + _of_alternatives(pose)
     return Measured(setting, detection, known, pose, covariance, blur_px)
 
 
@@ -127,26 +124,6 @@ def _least_extent_px(detection: Detection) -> float:
     x, y = detection.corners_px.T
     area_px2 = 0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
     return max(float(np.sqrt(area_px2)), 1.0)
-
-
-def _of_calibration_and_size(
-    pose: MarkerPose, seen: Detection, camera: Camera, marker: MarkerKind
-) -> Array:
-    """Return what errors of the intrinsics and of the size add to the pose's covariance."""
-    T_camera_marker = pose.best.T_camera_marker
-    from_centre = T_camera_marker.rotation.apply(marker_corners_m(marker.size_m))
-    p_camera = from_centre + T_camera_marker.translation
-    _, by_point = camera.project_with_jacobian(p_camera)
-    turned = np.stack([-cross_matrix(arm) for arm in from_centre])
-    J = np.concatenate([by_point, by_point @ turned], axis=2).reshape(8, 6)
-    weights = np.linalg.inv(seen.corners_cov_px2)
-    gain = -np.linalg.solve(J.T @ weights @ J, J.T @ weights)
-    by_size = gain @ (by_point @ (from_centre / marker.size_m)[..., None]).reshape(8)
-    covariance = marker.size_sd_m**2 * np.outer(by_size, by_size)
-    if camera.covariance is not None:
-        by_camera = gain @ camera.parameter_jacobian(p_camera).reshape(8, -1)
-        covariance = covariance + by_camera @ camera.covariance @ by_camera.T
-    return np.asarray(covariance)
 
 
 def _of_alternatives(pose: MarkerPose) -> Array:
