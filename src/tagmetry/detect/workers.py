@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from itertools import pairwise
 from typing import TypeVar
 
 import cv2
@@ -20,6 +21,19 @@ def at_once(tasks: Sequence[Callable[[], A]]) -> list[A]:
     others = [(task, _pool().submit(task)) for task in tasks[1:]]
     first = [task() for task in tasks[:1]]
     return first + [task() if its.cancel() else its.result() for task, its in others]
+
+
+def shares(count: int, least: int, threads: int) -> list[slice]:
+    """Return `count` things as equal shares, at least one.
+
+    Args:
+        count: How many things.
+        least: None has fewer, unless there is only one.
+        threads: How many at most.
+    """
+    parts = max(1, min(threads, count // least))
+    ends = [count * k // parts for k in range(parts + 1)]
+    return [slice(first, last) for first, last in pairwise(ends)]
 
 
 def both(one: Callable[[], A], other: Callable[[], B]) -> tuple[A, B]:

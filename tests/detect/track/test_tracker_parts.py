@@ -13,6 +13,7 @@ from tagmetry.detect.nearest import nearest
 from tagmetry.detect.track.greyed import Greyed, boxes_around
 from tagmetry.detect.track.motion import moved, predicted
 from tagmetry.detect.track.nudge import nudged
+from tagmetry.detect.track.shared_look import look_by_threads
 from tagmetry.detect.track.sight import look
 from tagmetry.detect.track.strips import turns
 from tagmetry.detect.track.tracks import Tracks
@@ -130,6 +131,24 @@ def _flip(grey: np.ndarray, corners_px: np.ndarray, at: np.ndarray) -> None:
     for x, y in cv2.perspectiveTransform(at[None].astype(np.float64), H)[0] if len(at) else ():
         patch = grey[round(y) - 2 : round(y) + 3, round(x) - 2 : round(x) + 3]
         patch[...] = 210 if patch[2, 2] < 120 else 30
+
+
+def test_markers_look_the_same_to_several_threads() -> None:
+    shown = [Shown(k, 60 + 65 * k, 120, side_px=44, turn_deg=30 * k) for k in range(4)]
+    rng, threads = np.random.default_rng(5), cv2.getNumThreads()
+    ids = np.tile(np.arange(4), 25)
+    corners_px = np.stack([shown[k].corners_px() for k in ids]) + rng.normal(0, 2, (100, 1, 2))
+    asked = image(shown), family("tag36h11"), ids, corners_px, rng.uniform(0.3, 3, 100), ids < 0
+    try:
+        cv2.setNumThreads(3)
+        shared = look_by_threads(*asked)
+    finally:
+        cv2.setNumThreads(threads)
+    alone = [look(*asked[:2], *(one[k : k + 1] for one in asked[2:])) for k in range(100)]
+    for name in ("ids", "corners_px", "margins", "expected", "contrast", "correlation", "steps"):
+        each = np.concatenate([getattr(one, name) for one in alone])
+        np.testing.assert_allclose(getattr(shared, name), each, atol=1e-9)
+    assert (shared.correlation > 0.9).mean() > 0.5
 
 
 def test_nothing_is_read_in_a_plain_image() -> None:

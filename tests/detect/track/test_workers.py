@@ -8,10 +8,12 @@ from functools import partial
 import cv2
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from moving_markers import STEP_S, Shown, image
 
 from tagmetry.detect import Tracker
-from tagmetry.detect.workers import at_once, both
+from tagmetry.detect.workers import at_once, both, shares
 
 
 @pytest.fixture(params=[1, 2])
@@ -25,6 +27,14 @@ def threads(request: pytest.FixtureRequest) -> Iterator[int]:
 def test_results_come_in_the_order_of_the_tasks() -> None:
     assert at_once([partial(pow, 2, k) for k in range(100)]) == [2**k for k in range(100)]
     assert at_once([]) == []
+
+
+@given(st.integers(0, 200), st.integers(1, 30), st.integers(1, 8))
+def test_shares_are_all_of_it_and_none_too_small(count: int, least: int, threads: int) -> None:
+    parts = shares(count, least, threads)
+    assert [k for part in parts for k in range(count)[part]] == list(range(count))
+    assert len(parts) == 1 or min(part.stop - part.start for part in parts) >= least
+    assert len(parts) <= threads
 
 
 def test_two_tasks_give_two_results(threads: int) -> None:

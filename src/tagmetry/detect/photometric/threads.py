@@ -2,12 +2,11 @@
 
 from collections.abc import Sequence
 from functools import partial
-from itertools import pairwise
 
 import numpy as np
 
 from tagmetry.detect.photometric.marker import fit_markers
-from tagmetry.detect.workers import at_once
+from tagmetry.detect.workers import at_once, shares
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels
 
@@ -44,10 +43,8 @@ def fit_by_threads(
             bows[share],
         )
 
-    count = max(1, min(threads, len(inks) // _LEAST_SHARE))
-    if count == 1:
-        return fitted(slice(None))
-    ends = np.linspace(0, len(inks), count + 1).astype(int)
-    shares = [slice(int(a), int(b)) for a, b in pairwise(ends)]
-    done = at_once([partial(fitted, share) for share in shares])
+    parts = shares(len(inks), _LEAST_SHARE, threads)
+    if len(parts) == 1:
+        return fitted(parts[0])
+    done = at_once([partial(fitted, part) for part in parts])
     return tuple(np.concatenate(parts) for parts in zip(*done, strict=True))

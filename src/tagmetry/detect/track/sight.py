@@ -4,7 +4,8 @@ Where motion blurs edges until they are nowhere steep, the prediction may be the
 the one of the two is taken that looks more like the marker.
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 from typing import Self
 
 import numpy as np
@@ -93,13 +94,21 @@ class Sights:
         few = self.hamming <= min(forgiven_bits, self.family.correction_bits)
         return np.asarray(self.is_framed & few & (self.confidence >= _LEAST_CONFIDENCE))
 
-    def replaced(self, which: BoolArray, others: Self) -> Self:
-        """Return these with some of the n replaced by others of the same markers."""
-        rows = {}
+    def replaced(self, which: IntArray, others: Self) -> Self:
+        """Return these with those at `which` (m,) replaced by m others, where these look better."""
+        better = others.correlation > self.correlation[which]
+        changed = {}
         for name in ("corners_px", "margins", "contrast", "correlation", "steps"):
-            own, other = getattr(self, name), getattr(others, name)
-            rows[name] = np.where(which.reshape(-1, *[1] * (own.ndim - 1)), other, own)
-        return replace(self, **rows)
+            changed[name] = getattr(self, name).copy()
+            changed[name][which[better]] = getattr(others, name)[better]
+        return replace(self, **changed)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Self]) -> Self:
+        """Return markers of one family that were looked at in parts as if it were one."""
+        names = [one.name for one in fields(cls) if one.name != "family"]
+        columns = [np.concatenate([getattr(part, name) for part in parts]) for name in names]
+        return cls(parts[0].family, *columns)
 
     @property
     def _agreement(self) -> Array:
@@ -128,11 +137,11 @@ def look(
     first_px = np.ascontiguousarray(corners_px)
     moved_px = _on_edges(grey, first_px, deviation_px, sign, family.layout.side_cells)
     sights = _read(grey, family, ids, moved_px, sign, is_inverted)
-    doubtful = sights.correlation < _CLEAR
-    if not doubtful.any():
+    doubtful = np.flatnonzero(sights.correlation < _CLEAR)
+    if not len(doubtful):
         return sights
-    unmoved = _read(grey, family, ids, first_px, sign, is_inverted)
-    return sights.replaced(doubtful & (unmoved.correlation > sights.correlation), unmoved)
+    at = ids[doubtful], first_px[doubtful], sign[doubtful], is_inverted[doubtful]
+    return sights.replaced(doubtful, _read(grey, family, *at))
 
 
 def _on_edges(
