@@ -2,7 +2,7 @@
 
 import re
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,12 +13,15 @@ from live_server import eventually, served
 from tagmetry.calibrate.guidance import Plan, Session
 from tagmetry.calibrate.targets import explain_board
 from tagmetry.calibrate.view import BoardView
+from tagmetry.camera import Image
 from tagmetry.errors import InputError
 from tagmetry.files import load_camera
-from tagmetry.live.messages import CalibrationPicture, CalibrationState, Told
+from tagmetry.live.messages import Told
 from tagmetry.live.rooms.calibrate.cameras import PRACTICE_CAMERA, Practice, opened_camera
 from tagmetry.live.rooms.calibrate.hand import Hand
 from tagmetry.live.rooms.calibrate.messages import (
+    CalibrationPicture,
+    CalibrationState,
     EndCalibration,
     SaveCalibration,
     StartCalibration,
@@ -27,6 +30,7 @@ from tagmetry.live.rooms.calibrate.room import calibrate_room
 from tagmetry.live.rooms.calibrate.solved import checked_name
 from tagmetry.live.rooms.room import Room
 from tagmetry.markers import CharucoBoard
+from tagmetry.record import open_overlay
 
 BOARD = CharucoBoard(7, 5, 0.030, 0.022, "5x5_100")
 LINE = "charuco:7x5:30mm:22mm:5x5_100"
@@ -204,11 +208,56 @@ def test_a_camera_that_is_not_there_is_told_in_words(empty) -> None:
     room.close()
 
 
+@pytest.fixture(scope="module")
+def video(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a video of the simulated camera, as a hand holds the board still in four places."""
+    practice, path = Practice(BOARD), tmp_path_factory.mktemp("video") / "board.mp4"
+    session = Session.begin(Plan(BOARD, PRACTICE_CAMERA.size_px, 0.3))
+    with open_overlay(path) as video:
+        for image in practice.images():
+            video.write(replace(image, pixels=np.dstack([image.pixels] * 3)))
+            found = explain_board(image.pixels, BOARD)
+            if isinstance(found.result, BoardView):
+                session = session.step(found.result, image.time_s, found.quality)
+            else:
+                session = session.step(found.result.reason, image.time_s)
+            practice.follow(session)
+            if len(session.uncertainty_px) == 4:
+                return path
+    raise AssertionError("the simulated camera ended")
+
+
+def test_a_camera_that_is_lost_is_told_and_solved_from_what_was_seen(empty, video: Path) -> None:
+    room, told = empty(str(video))
+    asked(room, StartCalibration(LINE, "0.01px"))
+    eventually(lambda: told.states and told.state().phase in ("done", "failed"), WAITS_S)
+    assert told.state().phase == "done", told.state().why
+    assert told.state().why == "the camera gives no more images"
+    fx = next(one for one in told.state().result.numbers if one.name == "fx")
+    assert abs(fx.value - 520.0) < 6 * fx.sd + 2.0
+    room.close()
+
+
+def test_a_camera_that_is_lost_too_early_leaves_none(
+    empty, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(self: Practice) -> Iterator[Image]:
+        yield Image(np.zeros((480, 640), np.uint8), 0.0, "capture")
+        raise OSError("no such device any more")
+
+    monkeypatch.setattr(Practice, "images", broken)
+    room, told = empty("twin")
+    asked(room, StartCalibration(LINE, "0.5px"))
+    eventually(lambda: told.states and told.state().phase == "failed")
+    assert told.state().why.startswith("the camera was lost: no such device any more; a camera")
+    room.close()
+
+
 def test_pictures_on_disk_are_no_camera(tmp_path: Path) -> None:
     import cv2
 
     cv2.imwrite(str(tmp_path / "one.png"), np.zeros((8, 8), np.uint8))
-    with pytest.raises(InputError, match="expected a camera or a stream"):
+    with pytest.raises(InputError, match="expected a camera, a stream or a video"):
         opened_camera(str(tmp_path), BOARD)
 
 

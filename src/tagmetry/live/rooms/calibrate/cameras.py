@@ -13,6 +13,7 @@ from tagmetry.geometry import RigidTransform
 from tagmetry.live.rooms.calibrate.hand import Hand
 from tagmetry.markers import Board
 from tagmetry.pipeline import open_images
+from tagmetry.sources import VideoFile
 from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.rendering import Shot, photograph
 from tagmetry.twin.scenes import Scene, Still, board_thing
@@ -47,19 +48,21 @@ def opened_camera(spec: str, board: Board) -> Watched:
         board: That is held before it.
 
     Raises:
-        InputError: It cannot be opened, or ends by itself like a folder of pictures.
+        InputError: It cannot be opened, or is a folder of pictures.
     """
     return Practice(board) if spec == PRACTICE else Real(spec)
 
 
 class Real:
-    """A camera of this computer, or a stream; a person holds the board."""
+    """A camera of this computer, a stream, or a video of one; a person holds the board."""
 
     def __init__(self, spec: str) -> None:
         self._source = open_images(spec)
-        if not self._source.is_live:
+        if not (self._source.is_live or isinstance(self._source, VideoFile)):
             self._source.close()
-            raise InputError(f"expected a camera or a stream, like 0 or rtsp://…, got {spec[:60]}")
+            raise InputError(
+                f"expected a camera, a stream or a video, like 0 or rtsp://…, got {spec[:60]}"
+            )
 
     def images(self) -> Iterator[Image]:
         """Give the newest image each time."""

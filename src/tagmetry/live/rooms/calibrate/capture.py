@@ -63,6 +63,7 @@ class Capture:
         )
         self._enough, self._is_closing = threading.Event(), threading.Event()
         self._pictured_s = float("-inf")
+        self._lost = ""  # why images ended before there were enough
         self._thread = threading.Thread(target=self._run, name="calibration", daemon=True)
         self._thread.start()
 
@@ -112,7 +113,7 @@ class Capture:
         newest: list[Image] = []
 
         def remembered() -> Iterator[Image]:
-            for image in watched.images():
+            for image in self._until_lost(watched):
                 newest[:] = [image]
                 yield image
 
@@ -123,6 +124,14 @@ class Capture:
             if self._enough.wait(cost_s) or time.monotonic() - began_s > _MOST_S:
                 return
             worked_s = time.thread_time()
+
+    def _until_lost(self, watched: Watched) -> Iterator[Image]:
+        """Give the camera's images; where they end, what was seen until then is kept."""
+        try:
+            yield from watched.images()
+            self._lost = "the camera gives no more images"
+        except (InputError, OSError) as error:
+            self._lost = f"the camera was lost: {error}"
 
     def _tell_step(self, image: Image, step: Step) -> None:
         session = step.session
@@ -138,10 +147,11 @@ class Capture:
 
     def _solve(self, taken: list[Sighting]) -> None:
         if len(taken) < _LEAST_VIEWS:
-            raise InputError(
-                f"a camera needs at least {_LEAST_VIEWS} views, {len(taken)} were taken"
-            )
-        self.tell(phase="solving", advice="the camera is being solved from all views", why="")
+            needs = f"a camera needs at least {_LEAST_VIEWS} views, {len(taken)} were taken"
+            raise InputError("; ".join(filter(None, (self._lost, needs))))
+        self.tell(
+            phase="solving", advice="the camera is being solved from all views", why=self._lost
+        )
         self.solved = solved(taken, self._wanted.board)
         result = told_result(self.solved.run, has_report=self.solved.report is not None)
         self.tell(phase="done", advice="", result=result)
