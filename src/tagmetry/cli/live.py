@@ -37,11 +37,17 @@ def live(  # noqa: PLR0913 (each argument is an option)
         Path, typer.Option(help="Folder for what is recorded on the page.")
     ] = Path("recordings"),
     camera: Annotated[
-        str, typer.Option(help="Calibrated on the page: 0, a stream, or twin, a simulated one.")
+        str,
+        typer.Option(
+            help="Calibrated on the page: 0, a stream, a video, or twin, a simulated one."
+        ),
     ] = "twin",
     cameras: Annotated[
         Path, typer.Option(help="Folder for cameras that are calibrated on the page.")
     ] = Path("cameras"),
+    maps: Annotated[
+        Path, typer.Option(help="Folder of marker maps, cameras and images to locate from.")
+    ] = Path("maps"),
     headless: Annotated[
         Path | None, typer.Option(help="Write a video instead of serving a page: .mp4.")
     ] = None,
@@ -66,6 +72,6 @@ def live(  # noqa: PLR0913 (each argument is an option)
         controllers=controller or (),
         pictures=pictures,
         eye=eye,
-        furniture=Furniture(camera, cameras),
+        furniture=Furniture(camera, cameras, maps),
     ) as page:
         serve(page, browser=browser)

@@ -66,4 +66,4 @@ def news_parcel(message: Told, recording: str | None) -> Parcel:
     return Parcel(NEWS, values, load)
 
 
-_FURNITURE = {"camera": str, "cameras": Path}
+_FURNITURE = {"camera": str, "cameras": Path, "maps": Path}

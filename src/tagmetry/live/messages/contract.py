@@ -40,7 +40,7 @@ from tagmetry.live.rooms.calibrate.messages import (
     StartCalibration,
 )
 from tagmetry.live.rooms.lens.messages import LensPicture, LensTrace, StartLens, StopLens
-from tagmetry.live.rooms.locate.messages import LocateTrace, StartLocate, StopLocate
+from tagmetry.live.rooms.locate.messages import LocateImages, LocateTrace, StartLocate, StopLocate
 
 Sender = Literal["server", "page"]
 
@@ -78,6 +78,7 @@ Asked = (
     | SaveCalibration
     | StartLens
     | StopLens
+    | LocateImages
     | StartLocate
     | StopLocate
 )
@@ -139,5 +140,6 @@ CONTRACT = (
     Rule(StartLens, "page", "operator"),
     Rule(StopLens, "page", "operator"),
     Rule(StartLocate, "page", "operator"),
+    Rule(LocateImages, "page", "operator"),
     Rule(StopLocate, "page", "operator"),
 )

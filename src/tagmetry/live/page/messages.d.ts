@@ -355,10 +355,10 @@ export interface LocatePoint {
   sd_m: [number, number, number];
   /** Of the turns about x, y and z. */
   sd_rad: [number, number, number];
-  /** (x, y, z) as the simulation has it. */
-  true_m: [number, number, number];
-  /** Squared error by its covariance, six numbers together; 6 on average. */
-  mahalanobis2: number;
+  /** (x, y, z) as the simulation has it; None where nobody knows. */
+  true_m: [number, number, number] | null;
+  /** Squared error by its covariance, six numbers together; 6 on average; None where the truth is not known. */
+  mahalanobis2: number | null;
 }
 
 /** What a marker of the newest image says. */
@@ -525,7 +525,18 @@ export interface StartLocate {
   noise_px: number;
 }
 
-/** Stop carrying it. */
+/** Say where a camera was from images that it took; all lie in the server's folder of maps. */
+export interface LocateImages {
+  type: "LocateImages";
+  /** Of the marker map's file. */
+  map_name: string;
+  /** Of the intrinsics' file. */
+  camera: string;
+  /** Of a recording, a video, or a folder of pictures. */
+  images: string;
+}
+
+/** Stop it. */
 export interface StopLocate {
   type: "StopLocate";
 }
@@ -564,6 +575,7 @@ export type Asked =
   | SaveCalibration
   | StartLens
   | StopLens
+  | LocateImages
   | StartLocate
   | StopLocate;
 

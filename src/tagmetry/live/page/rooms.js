@@ -13,6 +13,7 @@ export class Rooms {
     document.getElementById("rooms").replaceChildren(...this.links.values());
     this.shown = null;
     addEventListener("hashchange", () => this.follow(true));
+    addEventListener("resize", () => this.reveal());
     this.follow(false);
   }
 
@@ -26,6 +27,7 @@ export class Rooms {
     this.shown?.close();
     this.shown = named;
     for (const [room, link] of this.links) this.mark(room, link);
+    this.reveal();
     named.open();
     if (isMove) section(named).focus({ preventScroll: true });
     scrollTo(0, 0);
@@ -35,8 +37,10 @@ export class Rooms {
     section(room).hidden = room !== this.shown;
     if (room !== this.shown) return link.removeAttribute("aria-current");
     link.setAttribute("aria-current", "page");
-    link.scrollIntoView({ block: "nearest", inline: "nearest" }); // on a phone some are out of sight
   }
+
+  // On a phone some links are out of sight: the shown room's comes into the middle.
+  reveal() { this.links.get(this.shown).scrollIntoView({ block: "nearest", inline: "center" }); }
 }
 
 function section(room) { return document.getElementById(`room-${room.id}`); }

@@ -23,10 +23,12 @@ class Furniture:
     Attributes:
         camera: That is calibrated: `twin`, or as `tagmetry.pipeline.open_images` understands it.
         cameras: Folder for cameras' files and reports.
+        maps: Folder of marker maps, cameras and images to locate from.
     """
 
     camera: str = "twin"
     cameras: Path = Path("cameras")
+    maps: Path = Path("maps")
 
 
 @contextmanager
@@ -46,7 +48,7 @@ def opened_rooms(
         floor_errors_room(give),
         calibrate_room(give, furniture.camera, furniture.cameras),
         lens_room(give),
-        locate_room(give),
+        locate_room(give, furniture.maps),
     )
     try:
         yield rooms

@@ -5,9 +5,9 @@ import { History } from "../arena/history.js";
 import { Parameters } from "../arena/parameters.js";
 import { PathPlan } from "../arena/path_plan.js";
 import { RobotCharts } from "../arena/robot_charts.js";
-import { CameraView } from "../camera.js";
-import { ArenaMap } from "../map.js";
-import { RobotTable } from "../table.js";
+import { CameraView } from "../arena/camera.js";
+import { ArenaMap } from "../arena/map.js";
+import { RobotTable } from "../arena/table.js";
 
 /** @type {(id: string) => any} */
 const $ = (id) => document.getElementById(id);

@@ -1,6 +1,6 @@
 // Calibration: the live picture with the outline to be matched, how far it is, and the camera.
-import { CalibrationView } from "../calibration_view.js";
-import { drawCoverage, drawUncertainty } from "../calibration_charts.js";
+import { CalibrationView } from "../calibrate/view.js";
+import { drawCoverage, drawUncertainty } from "../calibrate/charts.js";
 import { make } from "../make.js";
 
 const $ = (id) => document.getElementById(id);

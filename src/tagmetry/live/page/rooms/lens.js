@@ -1,5 +1,5 @@
 // The lens: a marker is looked for, measured, followed; what zoom and focus do meanwhile.
-import { drawSeries } from "../lens_charts.js";
+import { drawSeries } from "../lens/charts.js";
 import { make } from "../make.js";
 
 const $ = (id) => document.getElementById(id);

@@ -1,5 +1,5 @@
 // Locate: a camera's way on the map of markers, how sure it is, and what every marker says.
-import { drawRoom } from "../locate_map.js";
+import { drawRoom } from "../locate/map.js";
 import { make } from "../make.js";
 
 const $ = (id) => document.getElementById(id);
@@ -14,6 +14,11 @@ export class LocateRoom {
     $("locate-form").addEventListener("submit", (event) => {
       event.preventDefault();
       page.send("StartLocate", { noise_px: Number($("locate-noise").value) });
+    });
+    $("locate-images-form").addEventListener("submit", (event) => {
+      event.preventDefault();
+      const [map_name, camera, images] = ["map-name", "camera", "images"].map((id) => $(`locate-${id}`).value);
+      page.send("LocateImages", { map_name, camera, images });
     });
     $("locate-stop").addEventListener("click", () => page.send("StopLocate"));
     new ResizeObserver(() => drawRoom($("locate-map"), this.trace)).observe($("locate-map"));
@@ -39,7 +44,9 @@ export class LocateRoom {
   show() {
     const { trace } = this, last = trace?.path.at(-1);
     $("locate-say").textContent = said(trace);
-    $("locate-begin").disabled = !this.page.commands || Boolean(trace?.is_running);
+    for (const id of ["locate-begin", "locate-open"]) {
+      $(id).disabled = !this.page.commands || Boolean(trace?.is_running);
+    }
     $("locate-stop").disabled = !this.page.commands || !trace?.is_running;
     $("locate-now").replaceChildren(...(last ? ["x", "y", "z"].map((axis, n) => axisLine(last, axis, n)) : []));
     $("locate-residuals").replaceChildren(...(trace?.residuals ?? []).map(residualLine));
@@ -56,14 +63,16 @@ function said(trace) {
 }
 
 function trusted(path) {
+  if (path.at(-1).mahalanobis2 === null) return "Where it truly was nobody knows.";
   const mean = path.reduce((sum, one) => sum + one.mahalanobis2, 0) / path.length;
   return `Squared errors by their covariances are ${mean.toFixed(1)} on average over ${path.length} ` +
     "images; six numbers that are as sure as they say give 6.";
 }
 
 function axisLine(last, axis, n) {
-  const place = last[`${axis}_m`], off = 1000 * (place - last.true_m[n]);
-  const cells = [place.toFixed(4), (1000 * last.sd_m[n]).toFixed(2), off.toFixed(2),
+  const place = last[`${axis}_m`];
+  const off = last.true_m === null ? "–" : (1000 * (place - last.true_m[n])).toFixed(2);
+  const cells = [place.toFixed(4), (1000 * last.sd_m[n]).toFixed(2), off,
     ((180 / Math.PI) * last.sd_rad[n]).toFixed(3)];
   return make("tr", {}, make("th", { scope: "row" }, axis), ...cells.map((text) => make("td", {}, text)));
 }

@@ -1,8 +1,8 @@
 // Recordings: begin and end one, fetch, delete, and see one again by its time line.
-import { CameraView } from "../camera.js";
+import { CameraView } from "../arena/camera.js";
 import { make } from "../make.js";
-import { ArenaMap } from "../map.js";
-import { Player } from "../player.js";
+import { ArenaMap } from "../arena/map.js";
+import { Player } from "../recordings/player.js";
 
 const $ = (id) => document.getElementById(id);
 const SURE_MS = 4000; // within which a deletion is asked for again

@@ -31,8 +31,9 @@ class LocatePoint:
             one's direction, rad.
         sd_m: Standard deviations of x, y and z.
         sd_rad: Of the turns about x, y and z.
-        true_m: (x, y, z) as the simulation has it.
-        mahalanobis2: Squared error by its covariance, six numbers together; 6 on average.
+        true_m: (x, y, z) as the simulation has it; None where nobody knows.
+        mahalanobis2: Squared error by its covariance, six numbers together; 6 on average;
+            None where the truth is not known.
     """
 
     x_m: float
@@ -42,8 +43,8 @@ class LocatePoint:
     ellipse: tuple[float, float, float]
     sd_m: tuple[float, float, float]
     sd_rad: tuple[float, float, float]
-    true_m: tuple[float, float, float]
-    mahalanobis2: float
+    true_m: tuple[float, float, float] | None
+    mahalanobis2: float | None
 
 
 @dataclass(frozen=True)
@@ -96,5 +97,20 @@ class StartLocate:
 
 
 @dataclass(frozen=True)
+class LocateImages:
+    """Say where a camera was from images that it took; all lie in the server's folder of maps.
+
+    Attributes:
+        map_name: Of the marker map's file.
+        camera: Of the intrinsics' file.
+        images: Of a recording, a video, or a folder of pictures.
+    """
+
+    map_name: str
+    camera: str
+    images: str
+
+
+@dataclass(frozen=True)
 class StopLocate:
-    """Stop carrying it."""
+    """Stop it."""

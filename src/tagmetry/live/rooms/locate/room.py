@@ -1,14 +1,19 @@
-"""The locate room: operators start and stop the walk; everybody may watch."""
+"""The locate room: operators start a walk, or choose images; everybody may watch."""
 
 import threading
 import time
 from collections import deque
 from collections.abc import Callable
+from contextlib import closing
+from pathlib import Path
 from typing import cast
 
 from tagmetry.errors import InputError
 from tagmetry.live.messages import Asked, Told
+from tagmetry.live.rooms.locate.folder import Chosen, Folder
+from tagmetry.live.rooms.locate.looked import Looked, Way
 from tagmetry.live.rooms.locate.messages import (
+    LocateImages,
     LocateMarker,
     LocatePoint,
     LocateResidual,
@@ -17,7 +22,7 @@ from tagmetry.live.rooms.locate.messages import (
     StopLocate,
 )
 from tagmetry.live.rooms.locate.told import told_marker, told_point, told_residuals
-from tagmetry.live.rooms.locate.walk import Looked, Walk, checked_noise_px
+from tagmetry.live.rooms.locate.walk import Walk, checked_noise_px
 from tagmetry.live.rooms.room import Room
 from tagmetry.localize import MarkerMap
 
@@ -25,35 +30,47 @@ _PERIOD_S = 0.2
 _MOST_POINTS = 300
 
 
-def locate_room(give: Callable[[Told], None]) -> Room:
+def locate_room(give: Callable[[Told], None], maps: Path) -> Room:
     """Return the room.
 
     Args:
         give: Takes every message for the pages, from any thread.
+        maps: Folder of maps, cameras and images.
     """
-    desk = _Desk(give)
-    return Room(takers={StartLocate: desk.start, StopLocate: desk.stop}, close=desk.close)
+    desk = _Desk(give, Folder(maps))
+    takers = {StartLocate: desk.start, LocateImages: desk.open, StopLocate: desk.stop}
+    return Room(takers=takers, close=desk.close)
 
 
 class _Desk:
     """Knows the one walk that goes on."""
 
-    def __init__(self, give: Callable[[Told], None]) -> None:
-        self._give = give
+    def __init__(self, give: Callable[[Told], None], folder: Folder) -> None:
+        self._give, self._folder = give, folder
         self._walker: _Walker | None = None
 
     def start(self, asked: Asked) -> None:
         """Begin a walk."""
         noise_px = checked_noise_px(cast("StartLocate", asked).noise_px)
-        if self._walker is not None and self._walker.is_running:
-            raise InputError("the camera is being carried already; stop it first")
-        self._walker = _Walker(noise_px, self._give)
+        self._begin(lambda: Walk(noise_px))
+
+    def open(self, asked: Asked) -> None:
+        """Begin with images that were taken."""
+        chosen = Chosen(**vars(asked))
+        for name in vars(chosen).values():
+            self._folder.checked(name)
+        self._begin(lambda: self._folder.opened(chosen))
 
     def stop(self, _: Asked) -> None:
         """Stop the walk."""
         if self._walker is None or not self._walker.is_running:
             raise InputError("the camera is not being carried")
         self._walker.end()
+
+    def _begin(self, make: Callable[[], Way]) -> None:
+        if self._walker is not None and self._walker.is_running:
+            raise InputError("the camera is being carried already; stop it first")
+        self._walker = _Walker(make, self._give)
 
     def close(self) -> None:
         """End what runs."""
@@ -63,10 +80,10 @@ class _Desk:
 
 
 class _Walker:
-    """Carries the camera in a thread of its own; it rests as long as it works."""
+    """Goes a way in a thread of its own; it rests as long as it works."""
 
-    def __init__(self, noise_px: float, give: Callable[[Told], None]) -> None:
-        self._noise_px, self._give = noise_px, give
+    def __init__(self, make: Callable[[], Way], give: Callable[[Told], None]) -> None:
+        self._make, self._give = make, give
         self._markers: tuple[LocateMarker, ...] = ()
         self._path: deque[LocatePoint] = deque(maxlen=_MOST_POINTS)
         self._residuals: tuple[LocateResidual, ...] = ()
@@ -85,16 +102,24 @@ class _Walker:
         self._thread.join(patience_s)
 
     def _run(self) -> None:
-        self._tell("the room is being built")
-        walk, worked_s = Walk(self._noise_px), time.thread_time()
-        self._markers = tuple(told_marker(one) for one in walk.marker_map.markers)
-        for looked in walk.looks():
-            self._take(looked, walk.marker_map)
-            cost_s = time.thread_time() - worked_s
-            if self._is_ending.wait(max(_PERIOD_S - cost_s, cost_s)):
-                break
-            worked_s = time.thread_time()
-        self._tell("stopped by hand" if self._is_ending.is_set() else "", is_running=False)
+        try:
+            self._tell("the room is being built")
+            self._go(self._make())
+            why = "stopped by hand" if self._is_ending.is_set() else ""
+        except (InputError, OSError) as error:
+            why = str(error)
+        self._tell(why, is_running=False)
+
+    def _go(self, way: Way) -> None:
+        self._markers = tuple(told_marker(one) for one in way.marker_map.markers)
+        worked_s = time.thread_time()
+        with closing(way.looks()) as looks:
+            for looked in looks:
+                self._take(looked, way.marker_map)
+                cost_s = time.thread_time() - worked_s
+                if self._is_ending.wait(max(_PERIOD_S - cost_s, cost_s)):
+                    return
+                worked_s = time.thread_time()
 
     def _take(self, looked: Looked, marker_map: MarkerMap) -> None:
         if not looked.pose.hypotheses:

@@ -7,8 +7,8 @@ import numpy as np
 
 from tagmetry.detect import Detection
 from tagmetry.geometry import Array, RigidTransform
+from tagmetry.live.rooms.locate.looked import Looked
 from tagmetry.live.rooms.locate.messages import LocateMarker, LocatePoint, LocateResidual
-from tagmetry.live.rooms.locate.walk import Looked
 from tagmetry.live.show.told import ellipse_of
 from tagmetry.localize import CameraHypothesis, MapMarker, MarkerMap
 from tagmetry.markers.bodies import MarkerKey
@@ -22,12 +22,12 @@ def told_marker(one: MapMarker) -> LocateMarker:
 
 
 def told_point(looked: Looked, best: CameraHypothesis) -> LocatePoint:
-    """Return where the camera says it was, and where it was."""
+    """Return where the camera says it was, and where it was if that is known."""
     T, covariance = best.T_world_camera, best.covariance
     x_m, y_m, z_m = np.asarray(T.translation).tolist()
     ahead = T.rotation.as_matrix()[:, 2]
     sd = np.sqrt(np.diag(covariance)).tolist()
-    true_x, true_y, true_z = np.asarray(looked.T_world_camera.translation).tolist()
+    true = looked.T_world_camera
     return LocatePoint(
         x_m,
         y_m,
@@ -36,21 +36,22 @@ def told_point(looked: Looked, best: CameraHypothesis) -> LocatePoint:
         ellipse_of(covariance[:2, :2]),
         (sd[0], sd[1], sd[2]),
         (sd[3], sd[4], sd[5]),
-        (true_x, true_y, true_z),
-        _mahalanobis2(T, looked.T_world_camera, covariance),
+        None if true is None else _place(true),
+        None if true is None else _mahalanobis2(T, true, covariance),
     )
 
 
 def told_residuals(
     looked: Looked, best: CameraHypothesis, marker_map: MarkerMap
 ) -> tuple[LocateResidual, ...]:
-    """Return what every marker of an image says of the pose."""
+    """Return what every marker of an image that stands in the map says of the pose."""
     known = {one.key: one for one in marker_map.markers}
     reasons = {one.key: one.why for one in (*best.rejected, *looked.pose.passed_over)}
     keys = [MarkerKey(one.family, one.id) for one in looked.detections]
     return tuple(
         _residual(looked, best, seen, known[key], reasons.get(key, ""))
         for key, seen in zip(keys, looked.detections, strict=True)
+        if key in known
     )
 
 
@@ -64,6 +65,11 @@ def _residual(
     distance_m = float(np.linalg.norm(T_camera_marker.translation))
     rms_px = float(np.sqrt((apart_px**2).sum(axis=1).mean()))
     return LocateResidual(seen.id, distance_m, rms_px, known.key in best.used, why)
+
+
+def _place(T: RigidTransform) -> tuple[float, float, float]:
+    x_m, y_m, z_m = np.asarray(T.translation).tolist()
+    return x_m, y_m, z_m
 
 
 def _mahalanobis2(found: RigidTransform, true: RigidTransform, covariance: Array) -> float:

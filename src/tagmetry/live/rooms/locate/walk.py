@@ -4,38 +4,20 @@ No picture is rendered: every corner is where the optics put it, with noise that
 told. The map is the scene's own, and is taken to be exact.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Generator
 
 import numpy as np
 
-from tagmetry.camera import Camera
 from tagmetry.detect import Detection
 from tagmetry.errors import InputError
 from tagmetry.geometry import RigidTransform
-from tagmetry.localize import CameraPose, Localizer, MapMarker, MarkerMap
+from tagmetry.live.rooms.locate.looked import Looked
+from tagmetry.localize import Localizer, MapMarker, MarkerMap
 from tagmetry.twin.scenes.ready import ready_recipe
 from tagmetry.twin.truth import MarkerTruth, image_truth
 
 _SEEN, _STEEPEST_DEG = 0.95, 75.0
 _LEAST_PX, _MOST_PX = 0.01, 2.0
-
-
-@dataclass(frozen=True, eq=False)
-class Looked:
-    """One image of the walk.
-
-    Attributes:
-        camera: Its intrinsics.
-        T_world_camera: Where the camera truly was.
-        detections: The markers that it saw.
-        pose: Where it says it was.
-    """
-
-    camera: Camera
-    T_world_camera: RigidTransform
-    detections: tuple[Detection, ...]
-    pose: CameraPose
 
 
 class Walk:
@@ -59,7 +41,7 @@ class Walk:
             tuple(_mounted(one, first.T_world_camera) for one in first.markers), "room"
         )
 
-    def looks(self) -> Iterator[Looked]:
+    def looks(self) -> Generator[Looked]:
         """Give what each image shows, once round the room."""
         for number in range(self._recipe.count):
             truth = image_truth(self._recipe.scene, self._recipe.shot_of(number))

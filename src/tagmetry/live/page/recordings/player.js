@@ -1,5 +1,5 @@
 // A recording by its time line: asks for one moment at a time, and only ever for the newest wish.
-import { parse } from "./link.js";
+import { parse } from "../link.js";
 
 const STEP_MS = 50;
 const JUMP_S = 1; // from here on trails begin anew

@@ -1,5 +1,5 @@
 // The room from above: markers on the walls, the way of the camera, ellipses, where it truly was.
-import { prepared } from "./canvas.js";
+import { prepared } from "../canvas.js";
 
 const TIMES = 10; // ellipses are too small to be seen
 const APART = 5; // points from one ellipse to the next
@@ -42,6 +42,7 @@ function drawPath(pen, path, at, color) {
   line(pen, path.map((one) => at([one.x_m, one.y_m])));
   pen.fillStyle = color("--good");
   for (const one of path) {
+    if (one.true_m === null) continue; // nobody knows
     const [x, y] = at(one.true_m);
     pen.fillRect(x - 1.5, y - 1.5, 3, 3);
   }

@@ -1,5 +1,5 @@
 // What the driven lens does over time, and the curve that it is driven along.
-import { prepared } from "./canvas.js";
+import { prepared } from "../canvas.js";
 
 const LEFT = 76, EDGE = 8;
 

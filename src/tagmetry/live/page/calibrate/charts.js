@@ -1,5 +1,5 @@
 // Where the views have shown corners, and how the uncertainty fell from view to view.
-import { prepared } from "./canvas.js";
+import { prepared } from "../canvas.js";
 
 const ENOUGH = 40; // corners in a cell, for its full colour
 

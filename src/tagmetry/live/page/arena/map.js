@@ -1,7 +1,7 @@
 // @ts-check
 // The arena from above: trails, robots with headings, covariance ellipses, neighbour links.
-import { drawErrors, drawGhost, drawPlan, drawReach, drawStage } from "./arena/layers.js";
-import { prepared } from "./canvas.js";
+import { drawErrors, drawGhost, drawPlan, drawReach, drawStage } from "./layers.js";
+import { prepared } from "../canvas.js";
 
 const TRAIL = 150;
 const ELLIPSE_TIMES = 1000; // a standard deviation is too small to be seen
@@ -27,7 +27,7 @@ export class ArenaMap {
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
-  /** @param {import("./messages").World} world */
+  /** @param {import("../messages").World} world */
   take(world) {
     this.robots = world.robots;
     for (const one of world.robots) {
