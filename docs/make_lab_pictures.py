@@ -8,7 +8,8 @@ from tagmetry.lab.report.chapter import chapters
 IMAGES = Path(__file__).parent / "images" / "lab"
 DRAWN = (
     "detector_light", "detector_motion", "detector_side", "lens_limits", "seed000_figure10",
-    "seed000_figure11", "seed000_figure14", "seed000_figure9", "seed001_figure10",
+    "seed000_figure11", "seed000_figure12", "seed000_figure13", "seed000_figure14",
+    "seed000_figure15", "seed000_figure9", "seed001_figure10",
     "seed001_figure12", "seed001_figure13a", "seed001_figure13b", "seed001_figure14",
     "seed001_figure9_paper", "seed001_figure9_tagmetry", "seed002_figure17", "seed002_sights",
     "seed003_figure12", "seed004_figure12", "seed004_figure7", "seed004_figure8",

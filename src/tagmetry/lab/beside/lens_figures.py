@@ -69,8 +69,10 @@ def lens_figure(
                 _curve(axes, readings.where(method=method), against, quantity, (name, color))
                 if bounded and method == "tagmetry":
                     _bound(axes, readings.where(method=method), against, color)
-            for level in (limit, -limit):
+            for level in (limit,) if quantity is duration else (limit, -limit):
                 axes.axhline(level, ls=":", color="black", lw=1.2)
+            if quantity is duration:
+                axes.set_ylim(bottom=0)
             axes.set_title(_NAMES[method], fontsize=10)
             axes.set_xlabel(_AXES[against])
         grid[0].set_ylabel(axis)
