@@ -2,6 +2,8 @@
 
 import threading
 import time
+from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import cv2
@@ -11,13 +13,17 @@ from live_server import eventually
 
 from tagmetry.errors import InputError
 from tagmetry.geometry import RigidTransform
+from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.live.messages import Picture
 from tagmetry.live.show.eye import Look, WatchedEye
+from tagmetry.live.show.feed import Feed
 from tagmetry.live.show.painter import Painter, measured
+from tagmetry.live.show.recording import Recordings
 from tagmetry.live.show.runner import LiveRunner
 from tagmetry.live.show.seeing import seeing
-from tagmetry.live.show.stage import performance
+from tagmetry.live.show.stage import Performance, performance
+from tagmetry.pipeline.arena_twin import Moment
 from tagmetry.pipeline.arena_twin.ready import ready_scenario
 
 HERE = RigidTransform.from_components([[0.0, 0.0, 0.0]], Rotation.identity(1))
@@ -76,18 +82,26 @@ def test_corners_are_measured_as_often_as_the_scenario_says() -> None:
     assert seeing("corners", ready_scenario("aggregate", 2)).image_rate_hz == 30.0
 
 
-def test_pictures_are_measured_by_the_detector_as_often_as_the_computer_affords() -> None:
-    given = []
-    show = performance(
-        "aggregate",
-        ready_scenario("aggregate", 3),
-        lambda look, pixels: given.append((look, pixels)),
-        "pictures",
-    )
+@pytest.fixture(scope="module")
+def by_pictures() -> Iterator[tuple[Performance, Moment, list[tuple[Look, AnyPixels]]]]:
+    """Give a show that measures pictures, its first moment, and what was painted of it."""
+    given: list[tuple[Look, AnyPixels]] = []
+    scenario = ready_scenario("aggregate", 3)
+    with closing(
+        performance(
+            "aggregate", scenario, lambda look, pixels: given.append((look, pixels)), "pictures"
+        )
+    ) as show:
+        first = next(show.arena.run(1.0))
+        eventually(lambda: given)
+        yield show, first, given
+
+
+def test_pictures_are_measured_by_the_detector_as_often_as_the_computer_affords(
+    by_pictures,
+) -> None:
+    show, first, given = by_pictures
     assert 2.0 <= show.arena.scenario.image_rate_hz <= 30.0
-    first = next(show.arena.run(1.0))
-    eventually(lambda: given)
-    show.close()
     assert {one.id for one in first.detections} == {0, 1, 2}
     for state in first.turn.step.world:
         true = first.places[state.id]
@@ -98,17 +112,27 @@ def test_pictures_are_measured_by_the_detector_as_often_as_the_computer_affords(
     assert np.std(pixels[500:520, 500:520].astype(float)) > 1.0  # a sensor's noise
 
 
-@pytest.mark.parametrize("eye", ["corners", "pictures"])
-def test_the_markers_lie_where_the_picture_shows_them(eye: str, tmp_path: Path) -> None:
+def test_the_markers_lie_where_the_painted_picture_shows_them(tmp_path: Path) -> None:
     pictures: list[Picture] = []
 
     def take(message: object) -> None:
         if isinstance(message, Picture):
             pictures.append(message)
 
-    with LiveRunner("aggregate", 3, tmp_path, take, eye=eye):
+    with LiveRunner("aggregate", 3, tmp_path, take, eye="corners"):
         eventually(lambda: len(pictures) >= 2, 60)
-    shown = pictures[-1]
+    check_markers(pictures[-1])
+
+
+def test_the_markers_lie_where_the_measured_picture_shows_them(by_pictures, tmp_path: Path) -> None:
+    show, _, given = by_pictures
+    pictures: list[Picture] = []
+    Feed(pictures.append, Recordings(tmp_path)).picture(*given[-1], show)
+    check_markers(pictures[-1])
+
+
+def check_markers(shown: Picture) -> None:
+    """Check that every marker's black frame lies within its corners, and paper around."""
     pixels = cv2.imdecode(np.frombuffer(shown.jpeg, np.uint8), cv2.IMREAD_GRAYSCALE)
     assert pixels.shape == (shown.height_px, shown.width_px) == (540, 960)
     assert len(shown.markers) == 3
@@ -116,7 +140,7 @@ def test_the_markers_lie_where_the_picture_shows_them(eye: str, tmp_path: Path) 
         corners = np.array(one.corners_px)
         middle = corners.mean(axis=0)
         inside, outside = (pixels_at(pixels, middle + f * (corners - middle)) for f in (0.9, 1.15))
-        assert inside.mean() < 0.6 * outside.mean()  # the black frame, and the paper around
+        assert inside.mean() < 0.6 * outside.mean()
 
 
 def pixels_at(pixels: np.ndarray, places: np.ndarray) -> np.ndarray:
