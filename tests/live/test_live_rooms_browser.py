@@ -162,6 +162,16 @@ def test_a_camera_is_carried_round_a_room(window: Chromium, live: Served) -> Non
     fits_a_phone(window, "locate")
 
 
+def test_names_of_files_to_locate_from_are_asked_and_refused_in_words(
+    window: Chromium, live: Served
+) -> None:
+    enter(window, live, "locate")
+    for field, name in (("map-name", "hall.yaml"), ("camera", "camera.yaml"), ("images", "walk")):
+        put(window, f"locate-{field}", name)
+    press(window, "locate-open")
+    window.wait("document.getElementById('notice').textContent.includes('there is no hall.yaml')")
+
+
 @pytest.mark.parametrize(
     ("room", "empty"),
     [("recordings", "Nothing has been recorded yet"), ("health", "No news yet")],
