@@ -37,7 +37,7 @@ from tagmetry.detect.track.tracks import Tracks
 from tagmetry.detect.workers import both
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import AnyPixels
+from tagmetry.geometry.arrays import AnyPixels, BoolArray
 from tagmetry.markers import MarkerFamily
 
 
@@ -166,8 +166,9 @@ class Tracker:
         since_s = self._since_s(size_px, time_s)
         known = known_at(self._tracks, self._announced, time_s, since_s, self.fastest_px_s)
         expected = as_expected(looked_at, families, self.detector.rules, known)
-        new = self._new_parts(size_px, time_s, since_s)
-        seen, exact = self._searched_and_measured(looked_at, known, expected, new, camera)
+        around = parts_around(known, _lost(known, expected), size_px, self._least_px(size_px))
+        parts = [*around, *self._new_parts(size_px, time_s, since_s)]
+        seen, exact = self._searched_and_measured(looked_at, known, expected, parts, camera)
         self._tracks = followed(known, seen, exact, time_s, self.forget_s)
         self._time_s, self._size_px = time_s, size_px
         self._announced = []
@@ -178,7 +179,7 @@ class Tracker:
         looked_at: Greyed,
         known: Known,
         expected: Seen,
-        new: list[Part],
+        parts: Sequence[Part],
         camera: Camera | None,
     ) -> tuple[Seen, Exact]:
         """Return the markers that are reported, with their exact corners.
@@ -187,10 +188,11 @@ class Tracker:
         another thread searches for others.
         """
         looks, families = known.tracks.looks[expected.rows], self.detector.families
-        found, exact = both(
-            partial(self._found, looked_at, known, expected, new),
-            partial(_measured, looked_at, expected, looks, families, camera),
-        )
+        measure = partial(_measured, looked_at, expected, looks, families, camera)
+        if not parts:  # no thread need be woken
+            exact = measure()
+            return expected.at(exact.refined), exact.at(exact.refined)
+        found, exact = both(partial(self._found, looked_at, known, expected, parts), measure)
         unknown = np.full((len(found), LOOK_COUNT), np.nan)
         also = _measured(looked_at, found, unknown, families, camera)
         seen = expected.at(exact.refined).and_also(found)
@@ -230,21 +232,27 @@ class Tracker:
         self._rota = self._rota.after(time_s, since_s, self.acquire_s, len(plan))
         return [turn_part(plan[place], size_px[0], rounds % TURNS)]
 
-    def _found(self, looked_at: Greyed, known: Known, expected: Seen, new: list[Part]) -> Seen:
+    def _found(
+        self, looked_at: Greyed, known: Known, expected: Seen, parts: Sequence[Part]
+    ) -> Seen:
         """Return the markers that searching finds beside those that were seen where expected."""
-        is_lost = np.ones(len(known.tracks), dtype=bool)
-        is_lost[expected.rows] = False
-        size_px = looked_at.size_px
-        around = parts_around(known, is_lost, size_px, self._least_px(size_px))
         found = [
             one
-            for part in [*around, *new]
+            for part in parts
             for one in self._search.candidates(looked_at, part, expected.corners_px)
         ]
-        return claimed(best_per_place(found), known, is_lost, self.detector.families)
+        lost = _lost(known, expected)
+        return claimed(best_per_place(found), known, lost, self.detector.families)
 
     def _least_px(self, size_px: tuple[int, int]) -> float:
         return self.detector.min_side_px or default_min_side_px(size_px[0] * size_px[1])
+
+
+def _lost(known: Known, expected: Seen) -> BoolArray:
+    """Say which of the n markers that are looked for were not seen where expected, shape (n,)."""
+    is_lost = np.ones(len(known.tracks), dtype=bool)
+    is_lost[expected.rows] = False
+    return is_lost
 
 
 def _measured(
