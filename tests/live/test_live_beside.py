@@ -6,6 +6,7 @@ import signal
 import socket
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -159,6 +160,20 @@ def test_a_server_that_never_began_is_ended_at_once() -> None:
     own, began_s = ServerProcess(), time.monotonic()
     own.close()
     assert time.monotonic() - began_s < 2
+
+
+@pytest.mark.skipif(os.name != "posix", reason="interrupts by a signal")
+def test_ctrl_c_reaches_the_server_as_well_and_ends_it_quietly(
+    begin: Begin, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with listening("127.0.0.1", 0) as opened:
+        port = opened.getsockname()[1]
+    own = ServerProcess()
+    own.begin(replace(begin, port=port, recordings=tmp_path), Remembering())
+    os.kill(own.id, signal.SIGINT)
+    own.wait()
+    own.close()
+    assert capfd.readouterr().err == ""
 
 
 @pytest.mark.skipif(os.name != "posix", reason="kills by a signal")

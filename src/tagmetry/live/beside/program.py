@@ -64,3 +64,4 @@ def _hear(told: Iterator[Parcel], hub: Hub, runner: FarRunner, own: uvicorn.Serv
 
 if __name__ == "__main__":
     main()
+    os._exit(0)  # Ctrl-C ends the server first; its thread still reads, which nothing interrupts
