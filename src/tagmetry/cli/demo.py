@@ -107,7 +107,7 @@ def _tell(done: "Demonstration") -> None:
     typer.echo(
         "\ndistance: of the whole pose from the truth, in its own standard deviations; about"
     )
-    typer.echo("2.4 is normal for six numbers, above 4.5 would be a wrong covariance.")
+    typer.echo("2.4 is normal for six numbers, above 5 would be a wrong covariance.")
     if done.missing:
         typer.echo(f"not measured (hidden or too oblique): {', '.join(map(str, done.missing))}")
     typer.echo("\nwrote " + ", ".join(map(str, done.files)))

@@ -31,7 +31,7 @@ from tagmetry.detect.photometric.threads import fit_by_threads
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
-_FLOOR_PX = 0.0005  # what neither model nor noise describe
+_FLOOR_PX = 0.001  # what neither model nor noise describe
 _LOST_PX = (2.5, 0.05)  # a corner that moved farther was another's; at least, and of the diagonal
 _BOWING_HALF_PX = 21.0  # smaller markers cannot tell a bow from noise
 _LEAST_CONTRAST = 4.0  # in noises
