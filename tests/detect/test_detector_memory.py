@@ -51,7 +51,10 @@ def lying_at(x_m: float, rng: np.random.Generator) -> RigidTransform:
 
 
 def growth_bytes() -> int:
-    """Return by how much a process grows from its thousandth image to its ten thousandth."""
+    """Return by how much this process grows from its thousandth image to its ten thousandth.
+
+    In one of its own, where the memory of other tests does not count.
+    """
     images, detector = pictures(20), Detector()
     assert all(len(detector.detect(image)) == 2 for image in images)
     held = []
@@ -67,5 +70,5 @@ def growth_bytes() -> int:
 def test_the_ten_thousandth_image_takes_no_more_memory_than_the_thousandth() -> None:
     with ProcessPoolExecutor(
         1, get_context("spawn")
-    ) as alone:  # other tests' memory is not counted
+    ) as alone:
         assert alone.submit(growth_bytes).result() < MOST_BYTES_PER_IMAGE * 9_000
