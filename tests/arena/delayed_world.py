@@ -11,9 +11,9 @@ import numpy as np
 
 from tagmetry.arena.controllers import Spring, SpringFollower, View
 from tagmetry.arena.drive import Twist
-from tagmetry.arena.neighbours import Neighbour
 from tagmetry.arena.own_motion import OwnMotion
 from tagmetry.arena.place import Place
+from tagmetry.arena.told import Neighbour
 
 STEP_S = 0.001
 LEADER_MPS = 0.2

@@ -7,8 +7,8 @@ import numpy as np
 
 from tagmetry.arena.controllers import Controller, View
 from tagmetry.arena.drive import STILL, Twist
-from tagmetry.arena.neighbours import Neighbour
 from tagmetry.arena.place import Place
+from tagmetry.arena.told import Neighbour
 
 STEP_S = 0.02
 

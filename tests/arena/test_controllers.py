@@ -20,9 +20,9 @@ from tagmetry.arena.controllers import (
 )
 from tagmetry.arena.controllers.shield import stoppable_mps
 from tagmetry.arena.drive import STILL, Twist
-from tagmetry.arena.neighbours import NearObstacle, Neighbour
 from tagmetry.arena.place import Place
 from tagmetry.arena.safety import Fence
+from tagmetry.arena.told import NearObstacle, Neighbour
 
 HERE = Place(0.0, 0.0, 0.0)
 

@@ -17,8 +17,8 @@ from tagmetry.arena.controllers import (
     tuned,
 )
 from tagmetry.arena.drive import STILL
-from tagmetry.arena.neighbours import Neighbour
 from tagmetry.arena.place import Place
+from tagmetry.arena.told import Neighbour
 from tagmetry.errors import InputError
 
 START = Place(0.0, 0.0, 0.0)

@@ -68,7 +68,5 @@ def growth_bytes() -> int:
 @pytest.mark.slow
 @pytest.mark.skipif(not STATUS.exists(), reason="this system does not tell what a process holds")
 def test_the_ten_thousandth_image_takes_no_more_memory_than_the_thousandth() -> None:
-    with ProcessPoolExecutor(
-        1, get_context("spawn")
-    ) as alone:
+    with ProcessPoolExecutor(1, get_context("spawn")) as alone:
         assert alone.submit(growth_bytes).result() < MOST_BYTES_PER_IMAGE * 9_000

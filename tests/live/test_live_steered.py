@@ -4,7 +4,7 @@ import pytest
 
 from tagmetry.arena.controllers import ShieldRules, View
 from tagmetry.arena.drive import STILL, Twist
-from tagmetry.arena.neighbours import Neighbour
+from tagmetry.arena.told import Neighbour
 from tagmetry.live.show.steered import Steered
 
 AHEAD = View(0, 0.0, STILL, (Neighbour(1, 0.2, 0.0, 0.0, 0.0), Neighbour(2, 0.2, 3.1, 0.0, 0.0)))

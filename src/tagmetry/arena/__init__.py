@@ -19,13 +19,14 @@ from tagmetry.arena.mounting import (
     turn_from_drive,
 )
 from tagmetry.arena.neighbour_sensor import NeighbourSensor
-from tagmetry.arena.neighbours import NearObstacle, Neighbour, Neighbourhood, Told
+from tagmetry.arena.neighbours import Neighbourhood
 from tagmetry.arena.obstacles import Disc, Obstacle, Wall
 from tagmetry.arena.on_plane import OverheadView, point_on_plane
 from tagmetry.arena.robot import Mount, Robot
 from tagmetry.arena.safety import Decision, Fence, SafetyRules, StopForAll, decide
 from tagmetry.arena.sighting import Roster, Sightings, sight
 from tagmetry.arena.square_fit import SquareFits, fit_squares
+from tagmetry.arena.told import NearObstacle, Neighbour, Told
 from tagmetry.arena.tracks import Motion, TrackEvent, TrackRules, Tracks
 from tagmetry.arena.view_from_floor import view_from_floor
 from tagmetry.arena.wiggle import wiggle

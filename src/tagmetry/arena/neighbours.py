@@ -8,103 +8,20 @@ numbers of its own, so that what one is told does not depend on who else there i
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from itertools import pairwise
 from math import isnan
-from typing import NamedTuple
 
 import numpy as np
 
+from tagmetry.arena.crowd import Crowd, polar
 from tagmetry.arena.neighbour_sensor import NeighbourSensor
 from tagmetry.arena.obstacles import Obstacle, between
+from tagmetry.arena.told import NearObstacle, Neighbour, Told
 from tagmetry.arena.world_state import WorldState
 from tagmetry.geometry import Array, wrap_angle_rad
 from tagmetry.geometry.arrays import BoolArray, IntArray
 
 _KEPT = 4096  # worlds, for what is told late
-
-
-class Neighbour(NamedTuple):
-    """Another robot as a robot senses it; thousands are made of an image, hence a tuple.
-
-    Attributes:
-        id: Of the neighbour.
-        range_m: From centre to centre.
-        bearing_rad: Where it is, from the robot's front, in (-pi, pi].
-        relative_heading_rad: Where it heads, from the robot's own heading, in (-pi, pi].
-        age_s: Time since the image that this rests on.
-    """
-
-    id: int
-    range_m: float
-    bearing_rad: float
-    relative_heading_rad: float
-    age_s: float
-
-
-@dataclass(frozen=True)
-class NearObstacle:
-    """An obstacle as a robot senses it.
-
-    Attributes:
-        name: Of the obstacle.
-        range_m: From the robot's centre to its nearest point; 0 inside.
-        bearing_rad: Where that point is, from the robot's front, in (-pi, pi].
-    """
-
-    name: str
-    range_m: float
-    bearing_rad: float
-
-
-@dataclass(frozen=True)
-class Told:
-    """What a robot is told at one moment: the record of it, too.
-
-    Attributes:
-        robot_id: Who is told.
-        time_s: When.
-        neighbours: The nearest first.
-        obstacles: The nearest first.
-    """
-
-    robot_id: int
-    time_s: float
-    neighbours: tuple[Neighbour, ...]
-    obstacles: tuple[NearObstacle, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class _Crowd:
-    """The robots of a world as arrays."""
-
-    world: WorldState
-
-    @cached_property
-    def rows(self) -> Mapping[int, int]:
-        """Of the robots, by id."""
-        return {robot.id: row for row, robot in enumerate(self.world.robots)}
-
-    @cached_property
-    def ids(self) -> IntArray:
-        """Shape (n,)."""
-        return np.array([one.id for one in self.world.robots], dtype=np.int64)
-
-    @cached_property
-    def ages_s(self) -> Array:
-        """Time since the image that each rests on, shape (n,)."""
-        return np.array([one.age_s for one in self.world.robots], dtype=np.float64)
-
-    @cached_property
-    def places(self) -> Array:
-        """(x, y, heading), shape (n, 3)."""
-        numbers = [(one.x_m, one.y_m, one.heading_rad) for one in self.world.robots]
-        return np.array(numbers, dtype=np.float64).reshape(-1, 3)
-
-    @cached_property
-    def polar(self) -> tuple[Array, Array]:
-        """Ranges and bearings of all robots (columns) from each (rows), each of shape (n, n)."""
-        return _polar(self.places[:, None, :], self.places[None, :, :2])
 
 
 @dataclass
@@ -126,7 +43,7 @@ class Neighbourhood:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        self._crowds: deque[_Crowd] = deque(maxlen=_KEPT)
+        self._crowds: deque[Crowd] = deque(maxlen=_KEPT)
         self._rngs: dict[int, np.random.Generator] = {}
 
     def tell(self, world: WorldState) -> tuple[Told, ...]:
@@ -135,7 +52,7 @@ class Neighbourhood:
         Args:
             world: The robots now; later than the one before.
         """
-        self._crowds.append(_Crowd(world))
+        self._crowds.append(Crowd(world))
         self._forget(world.time_s)
         by_sensor: dict[NeighbourSensor, list[int]] = {}
         for robot in world:
@@ -169,13 +86,13 @@ class Neighbourhood:
             told[robot_id] = Told(robot_id, time_s, seen, near)
         return told
 
-    def _crowd_at(self, time_s: float) -> _Crowd | None:
+    def _crowd_at(self, time_s: float) -> Crowd | None:
         """Return the newest that is old enough."""
         late = reversed(self._crowds)
         return next((one for one in late if one.world.time_s <= time_s + 1e-9), None)
 
     def _neighbours(
-        self, crowd: _Crowd, ids: Sequence[int], sensor: NeighbourSensor, time_s: float
+        self, crowd: Crowd, ids: Sequence[int], sensor: NeighbourSensor, time_s: float
     ) -> list[tuple[Neighbour, ...]]:
         """Return whom each of some robots senses, the nearest first."""
         rows = np.array([crowd.rows[one] for one in ids])
@@ -194,7 +111,7 @@ class Neighbourhood:
         ends = np.searchsorted(who[order], np.arange(len(ids) + 1)).tolist()
         return [seen[first:last][: sensor.most] for first, last in pairwise(ends)]
 
-    def _sensed_of(self, crowd: _Crowd, rows: IntArray, sensor: NeighbourSensor) -> BoolArray:
+    def _sensed_of(self, crowd: Crowd, rows: IntArray, sensor: NeighbourSensor) -> BoolArray:
         """Say which of all robots (columns) those of some rows have within sight, shape (m, n)."""
         ranges, bearings = (values[rows] for values in crowd.polar)
         is_sensed = _within(ranges, bearings, sensor)
@@ -208,7 +125,7 @@ class Neighbourhood:
         if not self.obstacles:
             return ()
         points = np.array([one.nearest_point(own[:2]) for one in self.obstacles])
-        ranges, bearings = _polar(own, points)
+        ranges, bearings = polar(own, points)
         which = np.flatnonzero(_within(ranges, bearings, sensor))
         asked = np.stack([ranges[which], bearings[which], np.zeros(len(which))], axis=-1)
         told = sensed(asked, sensor, *self._draws([robot_id], [len(which)], sensor))
@@ -242,7 +159,7 @@ class Neighbourhood:
             self._rngs[robot_id] = np.random.default_rng([self.seed, robot_id])
         return self._rngs[robot_id]
 
-    def _in_sight(self, crowd: _Crowd, row: int, is_near: BoolArray) -> BoolArray:
+    def _in_sight(self, crowd: Crowd, row: int, is_near: BoolArray) -> BoolArray:
         """Say which of the robots that are near nothing hides, shape (n,)."""
         which = np.flatnonzero(is_near)
         which = which[which != row]
@@ -275,12 +192,6 @@ def sensed(exact: Array, sensor: NeighbourSensor, normal: Array, even: Array) ->
     noisy[:, 1:] = wrap_angle_rad(_rounded(noisy[:, 1:], sensor.angle_step_rad))
     noisy[even < sensor.drop_probability] = np.nan
     return np.asarray(noisy)
-
-
-def _polar(own: Array, places: Array) -> tuple[Array, Array]:
-    """Return ranges and bearings of places (..., 2) from (x, y, heading) (..., 3)."""
-    x, y = np.moveaxis(places - own[..., :2], -1, 0)
-    return np.hypot(x, y), wrap_angle_rad(np.arctan2(y, x) - own[..., 2])
 
 
 def _within(ranges: Array, bearings: Array, sensor: NeighbourSensor) -> BoolArray:

@@ -12,8 +12,8 @@ from math import hypot
 
 from tagmetry.arena.controllers.view import View
 from tagmetry.arena.drive import Twist
-from tagmetry.arena.neighbours import Neighbour
 from tagmetry.arena.place import Place, turned_rad
+from tagmetry.arena.told import Neighbour
 
 _KEPT = 400  # own places, for sightings up to some seconds old
 

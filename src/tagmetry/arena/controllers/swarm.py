@@ -14,8 +14,8 @@ import numpy as np
 from tagmetry.arena.controllers.parameters import Parameter
 from tagmetry.arena.controllers.view import View
 from tagmetry.arena.drive import STILL, Twist
-from tagmetry.arena.neighbours import Neighbour
 from tagmetry.arena.place import Place
+from tagmetry.arena.told import Neighbour
 
 WIDE_CIRCLE = Twist(0.1, 0.3)
 

@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from tagmetry.arena.drive import Twist
-from tagmetry.arena.neighbours import NearObstacle, Neighbour
 from tagmetry.arena.place import Place
+from tagmetry.arena.told import NearObstacle, Neighbour
 
 
 @dataclass(frozen=True)

@@ -11,11 +11,11 @@ import numpy as np
 
 from tagmetry.arena.controllers import Course, SpringFollower, View
 from tagmetry.arena.drive import STILL, Twist
-from tagmetry.arena.neighbours import Neighbour
 from tagmetry.arena.own_motion import OwnMotion
 from tagmetry.arena.place import Place
 from tagmetry.arena.stability.setting import FollowingSetting
 from tagmetry.arena.stability.wheels import Held, Lateness, Wheels
+from tagmetry.arena.told import Neighbour
 from tagmetry.geometry import Array
 
 _LEADER, _FOLLOWER = 0, 1

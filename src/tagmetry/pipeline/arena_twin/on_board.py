@@ -8,8 +8,8 @@ from math import pi
 
 from tagmetry.arena.controllers import Controller, View
 from tagmetry.arena.drive import STILL, Drive, Twist
-from tagmetry.arena.neighbours import Neighbour
 from tagmetry.arena.place import Place
+from tagmetry.arena.told import Neighbour
 from tagmetry.link import Odometry, Telemetry
 from tagmetry.link.client.endpoint import Endpoint
 from tagmetry.pipeline.arena.guarded import Guarded

@@ -1,0 +1,54 @@
+"""What one robot is told of those around it, in its own frame: x forward, y to its left."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+
+class Neighbour(NamedTuple):
+    """Another robot as a robot senses it; thousands are made of an image, hence a tuple.
+
+    Attributes:
+        id: Of the neighbour.
+        range_m: From centre to centre.
+        bearing_rad: Where it is, from the robot's front, in (-pi, pi].
+        relative_heading_rad: Where it heads, from the robot's own heading, in (-pi, pi].
+        age_s: Time since the image that this rests on.
+    """
+
+    id: int
+    range_m: float
+    bearing_rad: float
+    relative_heading_rad: float
+    age_s: float
+
+
+@dataclass(frozen=True)
+class NearObstacle:
+    """An obstacle as a robot senses it.
+
+    Attributes:
+        name: Of the obstacle.
+        range_m: From the robot's centre to its nearest point; 0 inside.
+        bearing_rad: Where that point is, from the robot's front, in (-pi, pi].
+    """
+
+    name: str
+    range_m: float
+    bearing_rad: float
+
+
+@dataclass(frozen=True)
+class Told:
+    """What a robot is told at one moment: the record of it, too.
+
+    Attributes:
+        robot_id: Who is told.
+        time_s: When.
+        neighbours: The nearest first.
+        obstacles: The nearest first.
+    """
+
+    robot_id: int
+    time_s: float
+    neighbours: tuple[Neighbour, ...]
+    obstacles: tuple[NearObstacle, ...]
