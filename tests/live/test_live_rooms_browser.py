@@ -63,8 +63,7 @@ def fits_a_phone(browser: Chromium, room: str) -> None:
     photograph(browser, f"{room}-phone")
     assert browser.run("document.documentElement.scrollWidth") <= PHONE[0]
     tab = "document.querySelector('#rooms a[aria-current]').getBoundingClientRect()"
-    left, right = browser.run(f"[{tab}.left, {tab}.right]")
-    assert 0 <= left < right <= PHONE[0]  # the room's tab is in sight
+    browser.wait(f"{tab}.left >= 0 && {tab}.right <= {PHONE[0]}")  # it comes into sight
     controls = (
         f"[...document.querySelectorAll('#room-{room} :is(button, input, select, a.button)')]"
     )

@@ -82,6 +82,7 @@ def test_a_viewer_is_heard_where_it_may_and_an_operator_always(live: Served, rul
         "points_m": ((0.0, 0.5),), "value": 0.5,
         "board": "chessboard:9x6:25mm", "uncertainty": "0.5px",
         "depth_m": 0.4, "turn_deg": 20.0, "tracks": False, "noise_px": 0.1,
+        "map_name": "room.yaml", "camera": "camera.yaml", "images": "walk",
     }  # fmt: skip
     asked = rule.message(**{n: values[n] for n in rule.message.__dataclass_fields__})
     before = len(live.runner.asked)

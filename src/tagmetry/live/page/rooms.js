@@ -13,7 +13,7 @@ export class Rooms {
     document.getElementById("rooms").replaceChildren(...this.links.values());
     this.shown = null;
     addEventListener("hashchange", () => this.follow(true));
-    addEventListener("resize", () => this.reveal());
+    new ResizeObserver(() => this.reveal()).observe(document.getElementById("rooms"));
     this.follow(false);
   }
 
