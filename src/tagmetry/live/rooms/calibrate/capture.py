@@ -15,6 +15,7 @@ from tagmetry.live.rooms.calibrate.cameras import Watched, opened_camera
 from tagmetry.live.rooms.calibrate.messages import CalibrationPicture, CalibrationState
 from tagmetry.live.rooms.calibrate.solved import Solved, solved
 from tagmetry.live.rooms.calibrate.told import told_coverage, told_picture, told_result
+from tagmetry.live.rooms.work import Work
 from tagmetry.markers import Board
 from tagmetry.pipeline.board_pictures import Sighting
 from tagmetry.pipeline.guided import Step, guided
@@ -41,7 +42,7 @@ class Wanted:
     uncertainty_px: float
 
 
-class Capture:
+class Capture(Work):
     """A calibration that runs.
 
     Attributes:
@@ -61,16 +62,10 @@ class Capture:
         self.state = CalibrationState(
             "looking", wanted.camera, board_text(wanted.board), wanted.uncertainty_px
         )
-        self._enough, self._is_closing = threading.Event(), threading.Event()
+        self._enough = threading.Event()
         self._pictured_s = float("-inf")
         self._lost = ""  # why images ended before there were enough
-        self._thread = threading.Thread(target=self._run, name="calibration", daemon=True)
-        self._thread.start()
-
-    @property
-    def is_running(self) -> bool:
-        """Whether it looks or solves."""
-        return self._thread.is_alive()
+        super().__init__("calibration")
 
     def end(self) -> None:
         """Take no more views; the thread then solves."""
@@ -78,9 +73,8 @@ class Capture:
 
     def close(self, patience_s: float = 5.0) -> None:
         """End without a camera, and wait a little for it."""
-        self._is_closing.set()
-        self._enough.set()
-        self._thread.join(patience_s)
+        self._is_ending.set()
+        super().close(patience_s)
 
     def tell(self, **changed: object) -> None:
         """Tell the page what has changed."""
@@ -90,7 +84,7 @@ class Capture:
     def _run(self) -> None:
         try:
             taken = self._looked()
-            if not self._is_closing.is_set():
+            if not self._is_ending.is_set():
                 self._solve(taken)
         except (InputError, OSError) as error:
             self.tell(phase="failed", why=str(error), advice="")

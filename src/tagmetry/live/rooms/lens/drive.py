@@ -1,6 +1,5 @@
 """A lens that is driven in a thread of its own; it rests as long as it works."""
 
-import threading
 import time
 from collections.abc import Callable
 from contextlib import closing
@@ -9,6 +8,7 @@ from tagmetry.errors import InputError
 from tagmetry.live.rooms.lens.messages import LensPicture, LensTrace, StartLens
 from tagmetry.live.rooms.lens.scene import lens_steps, true_depth_m
 from tagmetry.live.rooms.lens.told import Trace, told_picture
+from tagmetry.live.rooms.work import Work
 from tagmetry.pipeline.lens import LensStep
 
 _MOST_S = 600.0
@@ -16,7 +16,7 @@ _PICTURE_S = 0.3
 Give = Callable[[LensTrace | LensPicture], None]
 
 
-class Drive:
+class Drive(Work):
     """Measures a marker until it is done or told to stop."""
 
     def __init__(self, asked: StartLens, give: Give) -> None:
@@ -28,24 +28,8 @@ class Drive:
         """
         self._asked, self._give = asked, give
         self._trace = Trace()
-        self._is_ending = threading.Event()
         self._pictured_s = float("-inf")
-        self._thread = threading.Thread(target=self._run, name="lens", daemon=True)
-        self._thread.start()
-
-    @property
-    def is_running(self) -> bool:
-        """Whether the lens is driven."""
-        return self._thread.is_alive()
-
-    def end(self) -> None:
-        """Stop after the image that is being taken."""
-        self._is_ending.set()
-
-    def close(self, patience_s: float = 5.0) -> None:
-        """Stop, and wait a little for it."""
-        self.end()
-        self._thread.join(patience_s)
+        super().__init__("lens")
 
     def _run(self) -> None:
         self._give(self._trace.told("the simulated camera's calibrations are being solved"))

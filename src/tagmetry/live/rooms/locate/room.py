@@ -1,6 +1,5 @@
 """The locate room: operators start a walk, or choose images; everybody may watch."""
 
-import threading
 import time
 from collections import deque
 from collections.abc import Callable
@@ -24,6 +23,7 @@ from tagmetry.live.rooms.locate.messages import (
 from tagmetry.live.rooms.locate.told import told_marker, told_point, told_residuals
 from tagmetry.live.rooms.locate.walk import Walk, checked_noise_px
 from tagmetry.live.rooms.room import Room
+from tagmetry.live.rooms.work import Work
 from tagmetry.localize import MarkerMap
 
 _PERIOD_S = 0.2
@@ -75,11 +75,10 @@ class _Desk:
     def close(self) -> None:
         """End what runs."""
         if self._walker is not None:
-            self._walker.end()
-            self._walker.join()
+            self._walker.close()
 
 
-class _Walker:
+class _Walker(Work):
     """Goes a way in a thread of its own; it rests as long as it works."""
 
     def __init__(self, make: Callable[[], Way], give: Callable[[Told], None]) -> None:
@@ -87,19 +86,7 @@ class _Walker:
         self._markers: tuple[LocateMarker, ...] = ()
         self._path: deque[LocatePoint] = deque(maxlen=_MOST_POINTS)
         self._residuals: tuple[LocateResidual, ...] = ()
-        self._is_ending = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="locate", daemon=True)
-        self._thread.start()
-
-    @property
-    def is_running(self) -> bool:
-        return self._thread.is_alive()
-
-    def end(self) -> None:
-        self._is_ending.set()
-
-    def join(self, patience_s: float = 5.0) -> None:
-        self._thread.join(patience_s)
+        super().__init__("locate")
 
     def _run(self) -> None:
         try:
