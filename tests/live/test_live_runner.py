@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from live_server import eventually
 
-from tagmetry.arena import STATE_NAMES
 from tagmetry.arena.controllers import ShieldRules, View
 from tagmetry.arena.drive import STILL, Twist
 from tagmetry.arena.place import Place
@@ -35,12 +34,8 @@ from tagmetry.live.messages import (
 from tagmetry.live.show import watch as watch_module
 from tagmetry.live.show.errands import toward_goal
 from tagmetry.live.show.orders import Order, Orders
-from tagmetry.live.show.repertoire import Repertoire
 from tagmetry.live.show.runner import LiveRunner
-from tagmetry.live.show.stage import performance, steerable
 from tagmetry.live.show.steered import Steered
-from tagmetry.live.show.told import ellipse_of, told_markers
-from tagmetry.live.show.told_stage import told_stage
 from tagmetry.live.show.watch import BEAT_S, PATIENCE_S, Watch
 from tagmetry.pipeline.arena_twin import TwinArena
 from tagmetry.pipeline.arena_twin.ready import ready_scenario
@@ -186,64 +181,6 @@ def test_chooses_another_scenario(live: Running) -> None:
     live.until(lambda _: live.health.scenario == "aggregate")
 
 
-CONTROLLER = """
-from tagmetry.arena.drive import Twist
-
-def control(view):
-    return Twist(0.0, {turn})
-"""
-
-
-def test_a_users_file_can_be_chosen_and_is_read_anew(tmp_path: Path) -> None:
-    file = tmp_path / "spin.py"
-    file.write_text(CONTROLLER.format(turn=1.0))
-    repertoire = Repertoire([file])
-    assert repertoire.names[-1] == "spin.py"
-    for turn in (1.0, 2.0):
-        file.write_text(CONTROLLER.format(turn=turn))
-        make = repertoire.scenario("spin.py", 3).robots[2].controller
-        assert make is not None
-        assert make()(View(2, 0.0, STILL)) == Twist(0.0, turn)
-
-
-def test_a_users_file_is_checked_before_anything_runs(tmp_path: Path) -> None:
-    broken, empty = tmp_path / "broken.py", tmp_path / "empty.py"
-    broken.write_text("1 / 0")
-    empty.write_text("")
-    with pytest.raises(InputError, match="raised ZeroDivisionError"):
-        Repertoire([broken])
-    with pytest.raises(InputError, match="neither a function"):
-        Repertoire([empty])
-    with pytest.raises(InputError, match="expected a Python file"):
-        Repertoire([tmp_path / "none.py"])
-
-
-def test_two_files_have_two_names(tmp_path: Path) -> None:
-    (tmp_path / "a").mkdir()
-    files = [tmp_path / "spin.py", tmp_path / "a" / "spin.py"]
-    with pytest.raises(InputError, match="the same name"):
-        Repertoire(files)
-
-
-@pytest.mark.parametrize("name", ["../spin.py", "/etc/passwd", "spin.py", ""])
-def test_a_page_names_no_other_file(name: str) -> None:
-    with pytest.raises(InputError, match="there is no scenario"):
-        Repertoire().scenario(name, 2)
-
-
-def test_the_page_is_told_of_virtual_obstacles_and_of_the_fence() -> None:
-    stages = {}
-    for name in ("wander", "disperse"):
-        show = performance(name, ready_scenario(name, 2), None)
-        stages[name] = told_stage(show)
-        show.close()
-    assert stages["wander"].discs == ((-0.75, 0.2, 0.16), (0.8, -0.3, 0.2))
-    assert (0.15, 0.85, 0.15, 0.2) in stages["wander"].walls
-    assert stages["wander"].reach_m == 1.0
-    assert stages["wander"].fence_m == ()
-    assert stages["disperse"].fence_m[0] == (-1.6, -0.85)
-
-
 @pytest.mark.parametrize("how", ["closed", "silent"])
 def test_robots_stop_when_the_page_that_drives_is_gone(live: Running, how: str) -> None:
     live.runner.ask(PAGE, Release())
@@ -349,37 +286,3 @@ def test_a_robot_turns_to_its_goal_before_it_drives() -> None:
     assert toward_goal(ahead, (1.0, 0.0)) == Twist(0.25, 0.0)
     assert toward_goal(ahead, (0.01, 0.0)) == STILL
     assert toward_goal(View(0, 0.0, STILL), (1.0, 0.0)) == STILL
-
-
-@pytest.mark.parametrize("turn_rad", [-1.2, 0.0, 0.4, 1.5])
-def test_the_ellipse_is_the_covariance(turn_rad: float) -> None:
-    c, s = np.cos(turn_rad), np.sin(turn_rad)
-    R = np.array([[c, -s], [s, c]])
-    long_m, short_m, found_rad = ellipse_of(R @ np.diag([9e-6, 1e-6]) @ R.T)
-    np.testing.assert_allclose([long_m, short_m], [3e-3, 1e-3])
-    assert abs(np.sin(found_rad - turn_rad)) < 1e-9
-
-
-def test_an_unknown_covariance_has_no_ellipse() -> None:
-    assert np.isnan(ellipse_of(np.full((2, 2), np.nan))[0])
-    assert len(STATE_NAMES) == 5
-
-
-def test_markers_point_where_the_robots_head() -> None:
-    scenario, steered = steerable(ready_scenario("aggregate", 5))
-    assert set(steered) == set(scenario.by_id)
-    show = performance("aggregate", ready_scenario("aggregate", 5), None)
-    (*_, moment) = show.arena.run(0.1)
-    markers = told_markers(moment.detections, show.roster, 0.5)
-    assert len(markers) == 5
-    for one in markers:
-        state = moment.turn.step.world.robot(one.robot_id)
-        middle = np.mean(one.corners_px, axis=0)
-        assert state is not None
-        ahead = np.array([np.cos(state.heading_rad), np.sin(state.heading_rad), 0.0])
-        p_world = np.array([state.x_m, state.y_m, 0.1]) + np.outer([0.0, 0.12], ahead)
-        pixels, _ = scenario.view.project(p_world)
-        want = pixels[1] - pixels[0]
-        got = np.array(one.front_px) - middle
-        assert want @ got / np.linalg.norm(want) / np.linalg.norm(got) > 0.99
-    show.close()
