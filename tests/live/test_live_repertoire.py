@@ -1,4 +1,4 @@
-"""What can be chosen on the page: scenarios, and users' files that are checked before anything runs."""
+"""What can be chosen on the page: scenarios, and files of users, checked before anything runs."""
 
 from pathlib import Path
 
