@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tagmetry.arena.stability.setting import FollowingSetting
-from tagmetry.arena.stability.wheels import Lateness, Wheels, driven
+from tagmetry.arena.stability.period import Period
+from tagmetry.arena.stability.wheels import driven
 from tagmetry.geometry import Array
 
 OFFSET, HEADING = 0, 1  # of the state, and of the leader in what comes from outside
@@ -47,30 +47,17 @@ class _Seen:
 
 
 @dataclass(frozen=True)
-class Across:
+class Across(Period):
     """One image period.
 
     The state is the robot's (offset, heading, turn rate), commands sent, own turn rates, the last
     command, and the leader's offset, heading and turn rate.
     """
 
-    setting: FollowingSetting
-
-    @property
-    def size(self) -> int:
-        """Length of the state."""
-        return len(self._wheels.push) + self._acting.whole + 1 + self._told.whole + 1 + 4
-
-    @property
-    def outside(self) -> int:
-        """The leader's offset and heading."""
-        return 2
-
     def __call__(self, state: Array, command: Array, outside: Array) -> tuple[Array, Array]:
         """Return the next state, and the controller's command."""
-        ends = np.cumsum([len(self._wheels.push), self._acting.whole + 1, self._told.whole + 1])
-        robot, sent, turns, (last, *known) = np.split(state, ends)
-        turns = self._own_turns(turns, last)
+        robot, sent, turns, (last, *known) = np.split(state, self._ends)
+        turns = self._own(turns, last)
         seen = self._sighting(robot, outside, turns)
         leader = self._leader(known, turns[0], seen)
         now = leader.carried(self.setting.speed_mps, self.setting.delay_s)
@@ -80,21 +67,12 @@ class Across:
         return np.concatenate([robot, sent, turns, [wish, *known]]), wish
 
     @property
-    def _acting(self) -> Lateness:
-        return Lateness.of(self.setting.delay_s + self.setting.untold_s, self.setting.image_s)
+    def _known(self) -> int:
+        return 4
 
     @property
-    def _told(self) -> Lateness:
-        return Lateness.of(self.setting.delay_s, self.setting.image_s)
-
-    @property
-    def _wheels(self) -> Wheels:
-        moved = np.array([[0.0, self.setting.speed_mps, 0.0], [0.0, 0.0, 1.0]])
-        return Wheels.of(moved, self.setting.motor_s, self.setting.hold_s)
-
-    def _own_turns(self, turns: Array, last: Array) -> Array:
-        left = np.exp(-self.setting.image_s / self.setting.told_motor_s)
-        return np.concatenate([[last + left * (turns[0] - last)], turns[:-1]])
+    def _moved(self) -> Array:
+        return np.array([[0.0, self.setting.speed_mps, 0.0], [0.0, 0.0, 1.0]])
 
     def _sighting(self, robot: Array, leader: Array, turns: Array) -> _Seen:
         """Return the leader as the image has it, seen from where the command acts."""

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.arena.stability.setting import FollowingSetting
-from tagmetry.arena.stability.wheels import Lateness, Wheels, driven
+from tagmetry.arena.stability.period import Period
+from tagmetry.arena.stability.wheels import driven
 from tagmetry.geometry import Array
 
 PLACE = 0  # of the state: the follower's own
@@ -22,26 +22,13 @@ LEADER, LENGTH = 0, 1  # of what comes from outside: the leader's place, the spr
 
 
 @dataclass(frozen=True)
-class Along:
+class Along(Period):
     """One image period; the state is the robot's, commands sent, own motions, z, u and V."""
-
-    setting: FollowingSetting
-
-    @property
-    def size(self) -> int:
-        """Length of the state."""
-        return len(self._wheels.push) + self._acting.whole + 1 + self._told.whole + 1 + 3
-
-    @property
-    def outside(self) -> int:
-        """The leader's place, and the spring's length."""
-        return 2
 
     def __call__(self, state: Array, command: Array, outside: Array) -> tuple[Array, Array]:
         """Return the next state, and the controller's command."""
-        ends = np.cumsum([len(self._wheels.push), self._acting.whole + 1, self._told.whole + 1])
-        robot, sent, motions, (place, speed, wish) = np.split(state, ends)
-        motions = self._own_motions(motions, wish)
+        robot, sent, motions, (place, speed, wish) = np.split(state, self._ends)
+        motions = self._own(motions, wish)
         seen = outside[LEADER] - robot[PLACE] - self._driven_since(motions)
         place, speed = self._leader(place, speed, motions[0], seen)
         wish = self._pulled(place, speed, wish, outside[LENGTH])
@@ -49,20 +36,12 @@ class Along:
         return np.concatenate([robot, sent, motions, [place, speed, wish]]), wish
 
     @property
-    def _acting(self) -> Lateness:
-        return Lateness.of(self.setting.delay_s + self.setting.untold_s, self.setting.image_s)
+    def _known(self) -> int:
+        return 3
 
     @property
-    def _told(self) -> Lateness:
-        return Lateness.of(self.setting.delay_s, self.setting.image_s)
-
-    @property
-    def _wheels(self) -> Wheels:
-        return Wheels.of(np.array([[0.0, 1.0]]), self.setting.motor_s, self.setting.hold_s)
-
-    def _own_motions(self, motions: Array, wish: Array) -> Array:
-        left = np.exp(-self.setting.image_s / self.setting.told_motor_s)
-        return np.concatenate([[wish + left * (motions[0] - wish)], motions[:-1]])
+    def _moved(self) -> Array:
+        return np.array([[0.0, 1.0]])
 
     def _driven_since(self, motions: Array) -> Array:
         """Return what it drives between an image and the command, as it believes."""
