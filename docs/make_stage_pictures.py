@@ -11,7 +11,7 @@ from scipy.special import ndtr, ndtri
 from tagmetry.camera import Camera, scaled
 from tagmetry.detect import Detector
 from tagmetry.detect.photometric import Picture, fit_pictures
-from tagmetry.detect.refine import refine
+from tagmetry.detect.sides import refine
 from tagmetry.detect.stages import look_through
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.arrays import GreyPixels

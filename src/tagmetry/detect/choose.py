@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numba import njit
 
-from tagmetry.detect.decode import Reading, Readings, has_border, has_outline
 from tagmetry.detect.detection import Detection, Rejection
-from tagmetry.detect.nearest import Match, Matches, nearest, nearest_of_each
-from tagmetry.detect.sample import side_lengths
+from tagmetry.detect.reading.decode import Reading, Readings, has_border, has_outline
+from tagmetry.detect.reading.nearest import Match, Matches, nearest, nearest_of_each
+from tagmetry.detect.reading.sample import side_lengths
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, IntArray
 from tagmetry.markers import MarkerFamily

@@ -8,7 +8,7 @@ import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.detect.photometric import LOOK_COUNT, Picture, fit_pictures
-from tagmetry.detect.refine import Corners, refine
+from tagmetry.detect.sides import Corners, refine
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels
 

@@ -8,8 +8,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from tagmetry.detect.decode import free_colours
 from tagmetry.detect.photometric import Picture
+from tagmetry.detect.reading.decode import free_colours
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import MarkerFamily

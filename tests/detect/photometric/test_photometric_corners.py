@@ -42,7 +42,7 @@ def test_errors_are_near_the_least_possible(side_px: float, noise: float, expone
 
 @pytest.mark.parametrize("exponent", [1.0, 1.6, 2.2, 0.0])
 def test_a_gamma_curve_moves_no_corner(exponent: float) -> None:
-    """The side fit of `detect.refine` is off by 0.1 to 0.4 px here; 0 stands for sRGB."""
+    """The side fit of `detect.sides` is off by 0.1 to 0.4 px here; 0 stands for sRGB."""
     rng, outward = np.random.default_rng(2), []
     for _ in range(10):
         one = seen(rng, 60.0, noise=0.5, exponent=exponent)

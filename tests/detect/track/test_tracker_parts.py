@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from moving_markers import Shown, image
 
-from tagmetry.detect.decode import read
 from tagmetry.detect.grey import grey_8bit
-from tagmetry.detect.nearest import nearest
+from tagmetry.detect.reading.decode import read
+from tagmetry.detect.reading.nearest import nearest
 from tagmetry.detect.track.greyed import Greyed, boxes_around
 from tagmetry.detect.track.motion import moved, predicted
 from tagmetry.detect.track.nudge import nudged

@@ -8,7 +8,7 @@ steps by less.
 import numpy as np
 from numba import njit
 
-from tagmetry.detect.closest import count_ones
+from tagmetry.detect.reading.closest import count_ones
 from tagmetry.detect.segment.dark import RIM_PX, Bits, Places, row_shift
 from tagmetry.detect.segment.tiles import TILE_PX
 from tagmetry.geometry.arrays import GreyPixels

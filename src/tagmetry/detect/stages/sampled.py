@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.detect.sample import cell_means
+from tagmetry.detect.reading.sample import cell_means
 from tagmetry.geometry import Array, apply_homography, square_to_quad
 from tagmetry.geometry.arrays import BoolArray, GreyPixels
 from tagmetry.markers import Layout

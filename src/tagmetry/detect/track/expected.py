@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tagmetry.detect.choose import Rules
-from tagmetry.detect.sample import side_lengths
+from tagmetry.detect.reading.sample import side_lengths
 from tagmetry.detect.track.blurred import recognised
 from tagmetry.detect.track.greyed import Greyed, boxes_around
 from tagmetry.detect.track.known import Known

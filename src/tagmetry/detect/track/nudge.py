@@ -8,7 +8,7 @@ them met. So predictions may be off by a cell, and are good to a fraction of a p
 import numpy as np
 from numba import njit
 
-from tagmetry.detect.sample import bilinear
+from tagmetry.detect.reading.sample import bilinear
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 

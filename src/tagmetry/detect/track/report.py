@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tagmetry.detect.detection import Detection
-from tagmetry.detect.refine import Corners
+from tagmetry.detect.sides import Corners
 from tagmetry.detect.track.seen import Seen
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray

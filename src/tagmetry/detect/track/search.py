@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from tagmetry.detect.choose import Candidate, Rules, best_per_place
-from tagmetry.detect.decode import read
+from tagmetry.detect.reading.decode import read
 from tagmetry.detect.segment import Squares, squares, squares_in_turn
 from tagmetry.detect.track.greyed import Greyed
 from tagmetry.detect.track.hunt import Part

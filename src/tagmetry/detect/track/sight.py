@@ -10,7 +10,7 @@ from typing import Self
 
 import numpy as np
 
-from tagmetry.detect.sample import cell_means, side_lengths, steps_across
+from tagmetry.detect.reading.sample import cell_means, side_lengths, steps_across
 from tagmetry.detect.track.cells import expected, places
 from tagmetry.detect.track.nudge import nudged
 from tagmetry.geometry import Array, square_to_quad

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.detect.neighbours import crowded, unread
-from tagmetry.detect.sample import side_lengths
+from tagmetry.detect.again.neighbours import crowded, unread
+from tagmetry.detect.reading.sample import side_lengths
 from tagmetry.geometry import Array
 
 _UNREAD = 2  # as many other pictures for each marker are far more

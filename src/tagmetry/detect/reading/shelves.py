@@ -15,7 +15,7 @@ from typing import Self
 import numpy as np
 from numba import njit
 
-from tagmetry.detect.closest import count_ones
+from tagmetry.detect.reading.closest import count_ones
 from tagmetry.geometry.arrays import IntArray
 from tagmetry.markers import MarkerFamily
 from tagmetry.markers.packed import Words

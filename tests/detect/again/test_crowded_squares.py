@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tagmetry.detect.neighbours import crowded, unread
+from tagmetry.detect.again.neighbours import crowded, unread
 
 RNG = np.random.default_rng(2)
 

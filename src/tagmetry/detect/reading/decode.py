@@ -12,8 +12,8 @@ from functools import cache
 
 import numpy as np
 
-from tagmetry.detect.reading import BORDER_ERRORS, Spots, read_each
-from tagmetry.detect.sample import cell_means
+from tagmetry.detect.reading.sample import cell_means
+from tagmetry.detect.reading.spots import BORDER_ERRORS, Spots, read_each
 from tagmetry.geometry import Array, square_to_quad
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 from tagmetry.markers import Layout

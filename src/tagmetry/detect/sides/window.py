@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.detect.sides import SAG_AT, Sides
+from tagmetry.detect.sides.sides import SAG_AT, Sides
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels
 

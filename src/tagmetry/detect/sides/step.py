@@ -13,7 +13,7 @@ covariance is that of the fit, with the noise taken from its residuals.
 import numpy as np
 from scipy.special import ndtr
 
-from tagmetry.detect.window import Window
+from tagmetry.detect.sides.window import Window
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 

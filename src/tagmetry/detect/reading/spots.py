@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tagmetry.detect.sample import cell_means_of, steps_of
+from tagmetry.detect.reading.sample import cell_means_of, steps_of
 from tagmetry.geometry.arrays import Array, GreyPixels, IntArray
 
 LEAST_CONTRAST = 8.0  # grey values between black and white

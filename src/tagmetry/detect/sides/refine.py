@@ -15,10 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from tagmetry.camera import Camera
-from tagmetry.detect.sides import Sides
-from tagmetry.detect.step import fit_steps
-from tagmetry.detect.straighten import model_error, straightened
-from tagmetry.detect.window import gather
+from tagmetry.detect.sides.sides import Sides
+from tagmetry.detect.sides.step import fit_steps
+from tagmetry.detect.sides.straighten import model_error, straightened
+from tagmetry.detect.sides.window import gather
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tagmetry.detect.choose import Rules
-from tagmetry.detect.closest import clearness, closest
-from tagmetry.detect.decode import Readings
-from tagmetry.detect.shelves import MOST_WRONG_BITS, Shelves, shelves_of
+from tagmetry.detect.reading.closest import clearness, closest
+from tagmetry.detect.reading.decode import Readings
+from tagmetry.detect.reading.shelves import MOST_WRONG_BITS, Shelves, shelves_of
 from tagmetry.markers import MarkerFamily, family
 from tagmetry.markers.packed import packed
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.detect.closest import clearness, clearness_of_each, closest, closest_of_each
-from tagmetry.detect.decode import Reading, Readings
-from tagmetry.detect.shelves import MOST_WRONG_BITS, shelves_of
+from tagmetry.detect.reading.closest import clearness, clearness_of_each, closest, closest_of_each
+from tagmetry.detect.reading.decode import Reading, Readings
+from tagmetry.detect.reading.shelves import MOST_WRONG_BITS, shelves_of
 from tagmetry.geometry.arrays import Array, IntArray
 from tagmetry.markers import MarkerFamily
 
