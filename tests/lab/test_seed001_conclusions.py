@@ -17,7 +17,7 @@ from tagmetry.lab.rigs.overhead import BOARD, CAMERA, GRID, T_WORLD_CAMERA, boar
 from tagmetry.lab.rigs.overhead_paper import fitted
 from tagmetry.lab.rigs.slider import DURATION_S, places, way_and_turn
 from tagmetry.lab.rows import FloorError, Quantity, Rate, SliderPlace
-from tagmetry.record.calibration_report.figures import ReportFigure
+from tagmetry.record.report import ReportFigure
 
 
 def test_the_paper_says_what_its_text_prints() -> None:

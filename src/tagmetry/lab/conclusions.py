@@ -2,8 +2,7 @@
 
 from dataclasses import dataclass
 
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import ReportTable
+from tagmetry.record.report import ReportFigure, ReportTable
 
 
 @dataclass(frozen=True)

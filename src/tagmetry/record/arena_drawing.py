@@ -8,7 +8,7 @@ import numpy as np
 from tagmetry.arena import WorldState
 from tagmetry.errors import MissingExtraError
 from tagmetry.geometry import Array
-from tagmetry.record.calibration_report.drawing import png
+from tagmetry.record.report.plot import png
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

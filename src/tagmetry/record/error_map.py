@@ -13,7 +13,7 @@ import numpy as np
 
 from tagmetry.arena.audit import ErrorMap
 from tagmetry.geometry import Array
-from tagmetry.record.calibration_report.drawing import RED, blank, png
+from tagmetry.record.report.plot import RED, blank, png
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,7 +8,7 @@ import numpy as np
 from tagmetry.errors import InputError
 from tagmetry.files.atomic import replace_file
 from tagmetry.lens import FocusFit
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, RED, blank
+from tagmetry.record.report.plot import BLUE, GOLD, RED, blank
 
 _COLORS = (BLUE, RED, GOLD)
 _KINDS = (".png", ".svg")

@@ -8,7 +8,7 @@ import numpy as np
 from tagmetry.errors import MissingExtraError
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.localize import MarkerMap
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, RED, png
+from tagmetry.record.report.plot import BLUE, GOLD, RED, png
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

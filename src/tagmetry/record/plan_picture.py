@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tagmetry.pose.plan import Setup, Volume
-from tagmetry.record.calibration_report.drawing import blank, png
+from tagmetry.record.report.plot import blank, png
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

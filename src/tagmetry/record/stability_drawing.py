@@ -8,7 +8,7 @@ import numpy as np
 from tagmetry.arena.stability import StabilityReport
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, LIGHT, RED, blank, png
+from tagmetry.record.report.plot import BLUE, GOLD, LIGHT, RED, blank, png
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

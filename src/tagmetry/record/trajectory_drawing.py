@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tagmetry.localize.trajectory import Comparison
-from tagmetry.record.calibration_report.drawing import BLUE, RED, blank, png
+from tagmetry.record.report.plot import BLUE, RED, blank, png
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

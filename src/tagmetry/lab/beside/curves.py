@@ -8,8 +8,8 @@ import numpy as np
 
 from tagmetry.lab.beside.sample import Sample
 from tagmetry.lab.published.seed002 import Statement
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, RED, blank, log_colors
-from tagmetry.record.calibration_report.figures import ReportFigure
+from tagmetry.record.report import ReportFigure
+from tagmetry.record.report.plot import BLUE, GOLD, RED, blank, log_colors
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,7 +11,7 @@ from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.engines import OURS
 from tagmetry.lab.rigs.limit_sweeps import SWEEPS
 from tagmetry.lab.rows import Limit
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportTable
 
 _MOST_OF_BOUND = 1.3
 _DISTANCE2 = (6.4, 9.6)  # 8, by a fifth either way

@@ -7,8 +7,8 @@ import numpy as np
 
 from tagmetry.geometry import Array
 from tagmetry.lab.beside.lens_readings import LensReadings
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, LIGHT, RED, blank
-from tagmetry.record.calibration_report.figures import ReportFigure
+from tagmetry.record.report import ReportFigure
+from tagmetry.record.report.plot import BLUE, GOLD, LIGHT, RED, blank
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

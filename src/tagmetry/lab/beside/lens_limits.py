@@ -9,9 +9,8 @@ from tagmetry.geometry import Array
 from tagmetry.lab.beside.lens_readings import LensReadings, result_readings
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.lens_row import LensReading
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, LIGHT, RED, blank
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportFigure, ReportTable
+from tagmetry.record.report.plot import BLUE, GOLD, LIGHT, RED, blank
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

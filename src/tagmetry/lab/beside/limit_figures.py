@@ -10,8 +10,8 @@ from tagmetry.lab.beside.limit_summary import Limits, Looks
 from tagmetry.lab.engines import OURS
 from tagmetry.lab.engines.palette import COLOURS
 from tagmetry.lab.rigs.limit_sweeps import SWEEPS
-from tagmetry.record.calibration_report.drawing import blank
-from tagmetry.record.calibration_report.figures import ReportFigure
+from tagmetry.record.report import ReportFigure
+from tagmetry.record.report.plot import blank
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -15,8 +15,7 @@ from tagmetry.lab.beside.lens_readings import LensReadings, result_readings
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.lens_row import LensReading
 from tagmetry.lab.published.seed000 import seed000
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportFigure, ReportTable
 
 _DEPTH_PERCENT = 0.3
 _TURN_DEG = 0.5

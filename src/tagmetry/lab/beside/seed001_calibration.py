@@ -9,7 +9,7 @@ from tagmetry.lab.beside.sample import rounded
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed001 import seed001
 from tagmetry.lab.rows import Quantity
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportTable
 
 PARAMETERS = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
 _LENS = PARAMETERS[4:]

@@ -10,9 +10,8 @@ from tagmetry.lab.beside.sample import rounded
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed001 import seed001
 from tagmetry.lab.rows import FollowingMoment
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, RED, blank
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import ReportTable
+from tagmetry.record.report import ReportFigure, ReportTable
+from tagmetry.record.report.plot import BLUE, GOLD, RED, blank
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

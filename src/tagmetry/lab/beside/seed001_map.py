@@ -11,9 +11,8 @@ from tagmetry.lab.beside.sample import rounded
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed001 import seed001
 from tagmetry.lab.rows import FloorError
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import ReportTable
 from tagmetry.record.error_map import error_map_figure
+from tagmetry.record.report import ReportFigure, ReportTable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -10,9 +10,8 @@ from tagmetry.lab.beside.sample import Mean, Sample, mean_of, rounded, sample
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.rigs.marker_floor import LayoutName
 from tagmetry.lab.rows import Localization
-from tagmetry.record.calibration_report.drawing import BLUE, RED, blank
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportFigure, ReportTable
+from tagmetry.record.report.plot import BLUE, RED, blank
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -9,8 +9,7 @@ from tagmetry.lab.beside.sample import Sample, difference, found_of, rounded, sa
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed002 import seed002
 from tagmetry.lab.rows import Localization
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import ReportTable
+from tagmetry.record.report import ReportFigure, ReportTable
 
 _SMALL_DEG, _LARGE_DEG = 0.0, 30.0
 _FAR_M = (4.0, 7.0)

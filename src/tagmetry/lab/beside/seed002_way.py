@@ -9,7 +9,7 @@ from tagmetry.geometry import Array
 from tagmetry.lab.beside.sample import Sample, mean_of, rounded, sample, told_of
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.rows import Followed
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportTable
 
 _SETTLED = 5  # images after which the filter knows the speeds
 _LOST_S = 1.0

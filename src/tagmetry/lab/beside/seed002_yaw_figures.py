@@ -6,7 +6,7 @@ from tagmetry.lab.beside.curves import Curve, Plot, curve_figure, surface_figure
 from tagmetry.lab.beside.sample import Sample
 from tagmetry.lab.beside.sights import sights_figure
 from tagmetry.lab.published.seed002 import seed002
-from tagmetry.record.calibration_report.figures import ReportFigure
+from tagmetry.record.report import ReportFigure
 
 SURFACES = {4: "one", 14: "two", 16: "four", 20: "four inclined", 22: "four and one perpendicular"}
 """Layouts by the number of the figure that shows them as a surface."""

@@ -11,7 +11,7 @@ import numpy as np
 from tagmetry.lab.beside.sample import Sample, rounded
 from tagmetry.lab.beside.seed002_yaw_figures import SURFACES
 from tagmetry.lab.conclusions import Check
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportTable
 
 _HALF = 0.5
 

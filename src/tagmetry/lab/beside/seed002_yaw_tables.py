@@ -7,7 +7,7 @@ import numpy as np
 from tagmetry.geometry import Array
 from tagmetry.lab.beside.sample import Sample, found_of, mean_of, rounded, told_of
 from tagmetry.lab.beside.seed002_yaw_figures import SURFACES
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportTable
 
 
 def by_distance(exact: Sample) -> ReportTable:

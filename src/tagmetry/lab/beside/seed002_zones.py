@@ -8,7 +8,7 @@ from tagmetry.lab.beside.sample import Mean, Sample, rounded, sample
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed002 import seed002
 from tagmetry.lab.rows import Localization
-from tagmetry.record.calibration_report.tables import ReportTable
+from tagmetry.record.report import ReportTable
 
 _ZONES = tuple(f"{v} {h}" for v in ("top", "middle", "bottom") for h in ("left", "centre", "right"))
 _MEAN_OF_RAYLEIGH = float(np.sqrt(np.pi) / 2)  # of a length in the plane, by its rms

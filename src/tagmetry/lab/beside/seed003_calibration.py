@@ -8,7 +8,7 @@ from tagmetry.geometry import Array
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed003 import seed003
 from tagmetry.lab.rows import Quantity
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportTable
 
 _PARAMETERS = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
 _ERRORS = ("rms px", "tutorial error px", "projection rms px", "views")

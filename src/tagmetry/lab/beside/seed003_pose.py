@@ -9,8 +9,7 @@ from tagmetry.lab.beside.seed003_pose_figures import error_figure, regression_fi
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed003 import PositionTable, seed003
 from tagmetry.lab.rows import Position
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportFigure, ReportTable
 
 _LEAST_PERCENT = 99.8
 _HALF_DIGIT = 1e-6

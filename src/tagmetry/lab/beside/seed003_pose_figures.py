@@ -6,8 +6,8 @@ import numpy as np
 
 from tagmetry.lab.beside.readings import Readings, printed
 from tagmetry.lab.published.seed003 import PositionTable
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, RED, blank
-from tagmetry.record.calibration_report.figures import ReportFigure
+from tagmetry.record.report import ReportFigure
+from tagmetry.record.report.plot import BLUE, GOLD, RED, blank
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

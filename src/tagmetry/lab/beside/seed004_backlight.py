@@ -11,9 +11,8 @@ from tagmetry.lab.published.seed004 import seed004
 from tagmetry.lab.rigs.robot_cameras import CameraName, robot_picture
 from tagmetry.lab.rigs.robot_room import T_ROBOT_CAMERA, RobotStand, robot_place, room_scene
 from tagmetry.lab.rows import RobotPlace
-from tagmetry.record.calibration_report.drawing import blank
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import ReportTable
+from tagmetry.record.report import ReportFigure, ReportTable
+from tagmetry.record.report.plot import blank
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -11,8 +11,7 @@ from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed004 import seed004
 from tagmetry.lab.rigs.robot_cameras import CameraName
 from tagmetry.lab.rows import RobotPlace
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportFigure, ReportTable
 
 _LARGE_M, _SMALL_M = 0.10, 0.06
 _GOOD_M = 0.01

@@ -11,9 +11,8 @@ from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed004 import seed004
 from tagmetry.lab.rigs.robot_room import PLACES, RobotStand, room_map
 from tagmetry.lab.rows import RobotPlace
-from tagmetry.record.calibration_report.drawing import BLUE, GOLD, RED, blank
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportFigure, ReportTable
+from tagmetry.record.report.plot import BLUE, GOLD, RED, blank
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

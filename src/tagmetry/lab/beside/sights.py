@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tagmetry.lab.rigs.marker_floor import LayoutName, Stand, camera_place, picture
-from tagmetry.record.calibration_report.drawing import blank
-from tagmetry.record.calibration_report.figures import ReportFigure
+from tagmetry.record.report import ReportFigure
+from tagmetry.record.report.plot import blank
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

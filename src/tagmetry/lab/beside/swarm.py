@@ -12,9 +12,8 @@ from tagmetry.geometry import Array
 from tagmetry.lab.beside.sample import rounded
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.rows import SwarmPlace
-from tagmetry.record.calibration_report.drawing import BLUE, blank
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.tables import ReportTable
+from tagmetry.record.report import ReportFigure, ReportTable
+from tagmetry.record.report.plot import BLUE, blank
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

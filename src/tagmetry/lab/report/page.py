@@ -1,19 +1,20 @@
 """The report as one page: no script, nothing from elsewhere, readable in light and dark."""
 
-import base64
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from html import escape
-
-import numpy as np
 
 from tagmetry import __version__
 from tagmetry.lab.conclusions import Check
 from tagmetry.lab.report.chapter import Chapter
 from tagmetry.lab.report.text import verdict
-from tagmetry.record.calibration_report.drawing import svg
-from tagmetry.record.calibration_report.figures import ReportFigure
-from tagmetry.record.calibration_report.style import STYLE
-from tagmetry.record.calibration_report.tables import Cell, ReportTable
+from tagmetry.record.report import Cell, ReportTable
+from tagmetry.record.report.html import (
+    cell_class,
+    document,
+    figure_html,
+    list_html,
+    titled_table_html,
+)
 
 _MORE_STYLE = """
 main { max-width: 72rem; }
@@ -29,12 +30,8 @@ _BAD = {"no", "worse", "FAILS"}
 def page(told: Sequence[Chapter]) -> str:
     """Return the page of all experiments."""
     run = [one for one in told if one.origin is not None]
-    return (
-        "<!doctype html><html lang='en'><head><meta charset='utf-8'>"
-        "<meta name='viewport' content='width=device-width, initial-scale=1'>"
-        f"<title>tagmetry: the laboratory</title><style>{STYLE}{_MORE_STYLE}</style></head>"
-        f"<body><main>{_header(told)}{''.join(map(_section, run))}</main></body></html>\n"
-    )
+    body = f"{_header(told)}{''.join(map(_section, run))}"
+    return document("tagmetry: the laboratory", body, _MORE_STYLE)
 
 
 def _header(told: Sequence[Chapter]) -> str:
@@ -63,7 +60,7 @@ def _section(one: Chapter) -> str:
         f"<p class='note'>{escape(_origin(one))}</p>"
         f"{_checks(told.checks)}{_remarks(told.remarks)}"
         f"{''.join(map(_table, told.tables))}"
-        f"<div class='figures'>{''.join(map(_figure, told.figures))}</div></section>"
+        f"<div class='figures'>{''.join(map(figure_html, told.figures))}</div></section>"
     )
 
 
@@ -85,43 +82,14 @@ def _checks(checks: Sequence[Check]) -> str:
 
 
 def _remarks(remarks: Sequence[str]) -> str:
-    entries = "".join(f"<li>{escape(one)}</li>" for one in remarks)
-    return f"<h3>To know</h3><ul>{entries}</ul>" if remarks else ""
+    return f"<h3>To know</h3>{list_html(remarks)}" if remarks else ""
 
 
 def _table(table: ReportTable) -> str:
-    head = "".join(f"<th scope='col'>{escape(name)}</th>" for name in table.header)
-    rows = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in table.rows)
-    return (
-        f"<h3>{escape(table.title)}</h3><div class='wide'><table><thead><tr>{head}</tr></thead>"
-        f"<tbody>{rows}</tbody></table></div>"
-    )
+    return titled_table_html(table, _class_of)
 
 
-def _cell(cell: Cell) -> str:
-    return f"<td{''.join(_kinds(cell))}>{escape(_shown(cell))}</td>"
-
-
-def _kinds(cell: Cell) -> Iterator[str]:
-    if isinstance(cell, str):
-        kind = " yes" if cell in _GOOD else " no" if cell in _BAD else ""
-        yield f" class='text{kind}'"
-
-
-def _shown(cell: Cell) -> str:
-    """Return a cell for people: five or so digits."""
-    if not isinstance(cell, float):
-        return str(cell)
-    if not np.isfinite(cell):
-        return "-"
-    return f"{cell:.5g}" if abs(cell) < 1000 else f"{cell:.1f}"
-
-
-def _figure(figure: ReportFigure) -> str:
-    encoded = base64.b64encode(svg(figure.draw())).decode("ascii")
-    told = escape(f"{figure.title}. {figure.told}", quote=True)
-    return (
-        f"<figure id='{figure.name}'><img src='data:image/svg+xml;base64,{encoded}' alt='{told}'>"
-        f"<figcaption><strong>{escape(figure.title)}.</strong> {escape(figure.told)}</figcaption>"
-        "</figure>"
-    )
+def _class_of(cell: Cell) -> str:
+    """Return a cell's classes: good and bad words have colours."""
+    verdict_class = " yes" if cell in _GOOD else " no" if cell in _BAD else ""
+    return cell_class(cell) + verdict_class

@@ -1,12 +1,13 @@
 """The figures of a report, each with its title and a text for those who do not see it."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tagmetry.record.calibration_report.drawing import (
+from tagmetry.record.calibration_report.facts import CalibrationFacts
+from tagmetry.record.calibration_report.tables import view_names
+from tagmetry.record.report import ReportFigure
+from tagmetry.record.report.plot import (
     BLUE,
     GOLD,
     LIGHT,
@@ -16,30 +17,11 @@ from tagmetry.record.calibration_report.drawing import (
     log_colors,
     plain_ticks,
 )
-from tagmetry.record.calibration_report.facts import CalibrationFacts
-from tagmetry.record.calibration_report.tables import view_names
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_NAMED = 40
-
-
-@dataclass(frozen=True, eq=False)
-class ReportFigure:
-    """A figure.
-
-    Attributes:
-        name: Of its file, without the ending.
-        title: For people.
-        told: What it shows, with its numbers, for those who do not see it.
-        draw: Draws it.
-    """
-
-    name: str
-    title: str
-    told: str
-    draw: "Callable[[], Figure]"
 
 
 def every_figure(facts: CalibrationFacts) -> tuple[ReportFigure, ...]:

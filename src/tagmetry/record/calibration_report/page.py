@@ -1,18 +1,11 @@
 """The report as one page: no script, nothing from elsewhere, readable in light and dark."""
 
-import base64
 from collections.abc import Iterator, Sequence
 from html import escape
 
-import numpy as np
-
-from tagmetry.record.calibration_report.drawing import svg
 from tagmetry.record.calibration_report.facts import CalibrationFacts
-from tagmetry.record.calibration_report.figures import ReportFigure, every_figure
-from tagmetry.record.calibration_report.style import STYLE
+from tagmetry.record.calibration_report.figures import every_figure
 from tagmetry.record.calibration_report.tables import (
-    Cell,
-    ReportTable,
     choice_table,
     distortion_table,
     error_table,
@@ -24,6 +17,15 @@ from tagmetry.record.calibration_report.tables import (
     view_names,
 )
 from tagmetry.record.calibration_report.thumbnails import jpeg, outlined
+from tagmetry.record.report import ReportFigure, ReportTable
+from tagmetry.record.report.html import (
+    document,
+    figure_html,
+    image_html,
+    list_html,
+    table_html,
+    titled_table_html,
+)
 
 _MOST_THUMBNAILS = 40
 _GRADES = {"good": "Good", "usable": "Usable", "poor": "Poor"}
@@ -36,27 +38,21 @@ def page(facts: CalibrationFacts) -> str:
         MissingExtraError: Matplotlib is not installed.
     """
     figures = {figure.name: figure for figure in every_figure(facts)}
-    body = "\n".join(_sections(facts, figures))
-    return (
-        '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>Camera calibration</title>\n<style>{STYLE}</style>\n</head>\n"
-        f"<body>\n<main>\n{body}\n</main>\n</body>\n</html>\n"
-    )
+    return document("Camera calibration", "\n".join(_sections(facts, figures)))
 
 
 def _sections(facts: CalibrationFacts, figures: dict[str, ReportFigure]) -> Iterator[str]:
     calibration = facts.calibration
     yield _header(facts)
     yield _section("Verdict", _verdict(facts))
-    yield _section("Camera", _table(parameter_table(calibration)), _TWO_DEVIATIONS)
-    yield _section("Uncertainty over the image", _figure(figures["uncertainty"]))
-    yield _section("Residual field", _figure(figures["residuals"]))
-    yield _section("Coverage", _figure(figures["coverage"]), _figure(figures["tilts"]))
-    yield _section("Views", _figure(figures["errors"]), _thumbnails(facts), _rejected(facts))
+    yield _section("Camera", table_html(parameter_table(calibration)), _TWO_DEVIATIONS)
+    yield _section("Uncertainty over the image", figure_html(figures["uncertainty"]))
+    yield _section("Residual field", figure_html(figures["residuals"]))
+    yield _section("Coverage", figure_html(figures["coverage"]), figure_html(figures["tilts"]))
+    yield _section("Views", figure_html(figures["errors"]), _thumbnails(facts), _rejected(facts))
     yield _section("Choice of the lens", *_choice(facts))
     if facts.pose_errors:
-        shown = (_figure(figures["pose_errors"]), _table(pose_error_table(facts)))
+        shown = (figure_html(figures["pose_errors"]), table_html(pose_error_table(facts)))
         yield _section("Error of a marker's pose", *shown)
     tables = (
         matrix_table(calibration),
@@ -64,7 +60,7 @@ def _sections(facts: CalibrationFacts, figures: dict[str, ReportFigure]) -> Iter
         pose_table(calibration),
         error_table(facts),
     )
-    yield _section("Tables", _FRAMES, *(_titled(table) for table in tables))
+    yield _section("Tables", _FRAMES, *(titled_table_html(table) for table in tables))
 
 
 _TWO_DEVIATIONS = (
@@ -102,8 +98,7 @@ def _verdict(facts: CalibrationFacts) -> str:
 def _list(title: str, entries: Sequence[str]) -> list[str]:
     if not entries:
         return []
-    rows = "".join(f"<li>{escape(entry)}</li>" for entry in entries)
-    return [f"<h3>{escape(title)}</h3><ul>{rows}</ul>"]
+    return [f"<h3>{escape(title)}</h3>{list_html(entries)}"]
 
 
 def _choice(facts: CalibrationFacts) -> Iterator[str]:
@@ -112,46 +107,11 @@ def _choice(facts: CalibrationFacts) -> Iterator[str]:
         yield "<p>The lens was asked for by name; none were compared.</p>"
         return
     yield f"<p>{escape(facts.calibration.choice.reason)}.</p>"
-    yield _table(table)
+    yield table_html(table)
 
 
 def _section(title: str, *parts: str) -> str:
     return f"<section><h2>{escape(title)}</h2>{''.join(parts)}</section>"
-
-
-def _titled(table: ReportTable) -> str:
-    return f"<h3>{escape(table.title)}</h3>{_table(table)}"
-
-
-def _table(table: ReportTable) -> str:
-    if not table.rows:
-        return "<p>None.</p>"
-    head = "".join(f"<th scope='col'>{escape(name)}</th>" for name in table.header)
-    rows = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in table.rows)
-    whole = f"<thead><tr>{head}</tr></thead><tbody>{rows}</tbody>"
-    return f"<div class='wide'><table>{whole}</table></div>"
-
-
-def _cell(cell: Cell) -> str:
-    kind = " class='text'" if isinstance(cell, str) else ""
-    return f"<td{kind}>{escape(_shown(cell))}</td>"
-
-
-def _shown(cell: Cell) -> str:
-    """Return a cell for people: five or so digits."""
-    if not isinstance(cell, float):
-        return str(cell)
-    if not np.isfinite(cell):
-        return "-"
-    return f"{cell:.5g}" if abs(cell) < 1000 else f"{cell:.1f}"
-
-
-def _figure(figure: ReportFigure) -> str:
-    return (
-        f"<figure>{_image(svg(figure.draw()), 'svg+xml', f'{figure.title}. {figure.told}')}"
-        f"<figcaption><strong>{escape(figure.title)}.</strong> {escape(figure.told)}</figcaption>"
-        "</figure>"
-    )
 
 
 def _thumbnails(facts: CalibrationFacts) -> str:
@@ -165,7 +125,7 @@ def _thumbnails(facts: CalibrationFacts) -> str:
         strict=True,
     )
     shown = [
-        f"<figure>{_image(jpeg(outlined(small, view, kept)), 'jpeg', f'{name} with its corners')}"
+        f"<figure>{_thumbnail(jpeg(outlined(small, view, kept)), name)}"
         f"<figcaption>{escape(name)}<br>{rms_px:.3f} px</figcaption></figure>"
         for small, view, kept, name, rms_px in each
         if small.size
@@ -175,16 +135,14 @@ def _thumbnails(facts: CalibrationFacts) -> str:
     return f"<div class='thumbs'>{''.join(shown[:_MOST_THUMBNAILS])}</div>{rest}"
 
 
+def _thumbnail(content: bytes, name: str) -> str:
+    return image_html(content, "jpeg", f"{name} with its corners")
+
+
 def _rejected(facts: CalibrationFacts) -> str:
     if not facts.rejected:
         return "<p>Every picture was used.</p>"
     rows = tuple((short_name(one.source), one.reason) for one in facts.rejected)
     table = ReportTable("rejected", "Pictures that were not used", ("picture", "why"), rows)
-    return (
-        f"<details><summary>{len(rows)} pictures were not used</summary>{_table(table)}</details>"
-    )
-
-
-def _image(content: bytes, kind: str, told: str) -> str:
-    encoded = base64.b64encode(content).decode("ascii")
-    return f"<img src='data:image/{kind};base64,{encoded}' alt='{escape(told, quote=True)}'>"
+    summary = f"<summary>{len(rows)} pictures were not used</summary>"
+    return f"<details>{summary}{table_html(table)}</details>"

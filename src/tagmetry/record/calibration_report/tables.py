@@ -3,10 +3,7 @@
 Frames: `board` x right, y up, z out of its face; `camera` x right, y down, z forward.
 """
 
-import csv
-import io
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import PurePath
 
 import numpy as np
@@ -14,36 +11,10 @@ import numpy as np
 from tagmetry.calibrate.choice import ModelRow
 from tagmetry.calibrate.result import Calibration
 from tagmetry.record.calibration_report.facts import CalibrationFacts
+from tagmetry.record.report import Cell, ReportTable
 
 _BROWN = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tx", "ty")
 _FISHEYE = ("k1", "k2", "k3", "k4")
-
-Cell = str | float | int
-
-
-@dataclass(frozen=True)
-class ReportTable:
-    """Rows under a heading.
-
-    Attributes:
-        name: Of its file, without the ending.
-        title: For people.
-        header: One name for each column, with its unit.
-        rows: The cells; numbers in full.
-    """
-
-    name: str
-    title: str
-    header: tuple[str, ...]
-    rows: tuple[tuple[Cell, ...], ...]
-
-    def csv_text(self) -> str:
-        """Return it as CSV, numbers to the last digit."""
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(self.header)
-        writer.writerows(self.rows)
-        return text.getvalue()
 
 
 def seed_tables(facts: CalibrationFacts) -> tuple[ReportTable, ...]:

@@ -4,11 +4,11 @@ from pathlib import Path
 
 from tagmetry.errors import InputError
 from tagmetry.files import write_atomically
-from tagmetry.record.calibration_report.drawing import png
 from tagmetry.record.calibration_report.facts import CalibrationFacts
 from tagmetry.record.calibration_report.figures import every_figure
 from tagmetry.record.calibration_report.page import page
 from tagmetry.record.calibration_report.tables import every_table
+from tagmetry.record.report.plot import png
 
 
 def write_report(facts: CalibrationFacts, path: str | Path) -> None:

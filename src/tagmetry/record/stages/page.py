@@ -1,10 +1,9 @@
 """All panels on one page that needs no other file."""
 
-import base64
 from collections.abc import Sequence
 from html import escape
 
-from tagmetry.record.calibration_report.style import STYLE
+from tagmetry.record.report.html import document, image_html
 from tagmetry.record.stages.panel import Panel, jpeg
 
 
@@ -17,19 +16,13 @@ def page(groups: Sequence[tuple[str, Sequence[Panel]]]) -> str:
         + "</section>"
         for title, panels in groups
     ]
-    return (
-        '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>Stages of the detector</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n"
-        f"<header><h1>Stages of the detector</h1></header>\n{''.join(sections)}\n</main>\n</body>\n"
-        "</html>\n"
-    )
+    header = "<header><h1>Stages of the detector</h1></header>\n"
+    return document("Stages of the detector", header + "".join(sections))
 
 
 def _figure(panel: Panel, number: int) -> str:
-    source = base64.b64encode(jpeg(panel.pixels)).decode()
+    picture = image_html(jpeg(panel.pixels), "jpeg", panel.title)
     return (
-        f"<figure><h3>{number}. {escape(panel.title)}</h3>"
-        f'<img alt="{escape(panel.title)}" src="data:image/jpeg;base64,{source}">'
+        f"<figure><h3>{number}. {escape(panel.title)}</h3>{picture}"
         f"<figcaption>{escape(panel.text)}</figcaption></figure>"
     )

@@ -99,5 +99,5 @@ def _styled() -> AbstractContextManager[None]:
     try:
         from matplotlib import rc_context
     except ModuleNotFoundError as error:
-        raise MissingExtraError("a calibration's report with figures", "report") from error
+        raise MissingExtraError("figures", "report") from error
     return rc_context(_STYLE)
