@@ -1,6 +1,7 @@
 """A recording that people start and stop while the arena runs."""
 
 import threading
+from contextlib import ExitStack
 from datetime import datetime
 from pathlib import Path
 
@@ -27,6 +28,7 @@ class Recordings:
         self.folder = folder
         self._ended = ""
         self._recorder: Recorder | None = None
+        self._open = ExitStack()
         self._closing: threading.Thread | None = None
 
     @property
@@ -51,14 +53,15 @@ class Recordings:
             return
         self.folder.mkdir(parents=True, exist_ok=True)
         name = f"{datetime.now().astimezone():%Y-%m-%d-%H-%M-%S-%f}.mcap"
-        self._recorder = Recorder(self.folder / name).__enter__()
+        self._recorder = self._open.enter_context(Recorder(self.folder / name))
         self.name, self._ended = name, ""
 
     def stop(self) -> None:
         """End the file; what still waits is written in a thread of its own."""
         recorder, self._recorder, self.name = self._recorder, None, None
         if recorder is not None:
-            self._closing = threading.Thread(target=self._end, args=(recorder,), name="recorded")
+            still_open = self._open.pop_all()
+            self._closing = threading.Thread(target=self._end, args=(still_open,), name="recorded")
             self._closing.start()
 
     def close(self) -> None:
@@ -84,8 +87,8 @@ class Recordings:
         if recorder is not None:
             recorder.line(topic, message.time_s, lambda: format_message(message).encode())
 
-    def _end(self, recorder: Recorder) -> None:
+    def _end(self, still_open: ExitStack) -> None:
         try:
-            recorder.__exit__(None, None, None)
+            still_open.close()
         except InputError as error:
             self._ended = str(error)

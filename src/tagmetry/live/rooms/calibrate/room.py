@@ -17,6 +17,7 @@ from tagmetry.live.rooms.calibrate.messages import (
     StartCalibration,
 )
 from tagmetry.live.rooms.calibrate.solved import Solved, checked_name
+from tagmetry.live.rooms.only import OnlyWork
 from tagmetry.live.rooms.room import Room
 from tagmetry.pipeline.guided import checked_uncertainty_px
 
@@ -48,32 +49,32 @@ class _Desk:
 
     def __init__(self, give: Callable[[Told], None], camera: str, folder: Path) -> None:
         self._give, self._camera, self._folder = give, camera, folder
-        self._capture: Capture | None = None
+        self._capture: OnlyWork[Capture] = OnlyWork(
+            runs="a calibration runs already; end it first", rests="no calibration runs"
+        )
         self._writer = ThreadPoolExecutor(1, "calibration files")
 
     def start(self, asked: Asked) -> None:
         """Begin a calibration."""
         wanted = self._wanted(cast("StartCalibration", asked))
-        if self._capture is not None and self._capture.is_running:
-            raise InputError("a calibration runs already; end it first")
-        self._capture = Capture(wanted, self._give)
+        self._capture.begin(lambda: Capture(wanted, self._give))
 
     def end(self, _: Asked) -> None:
         """Take no more views."""
-        if self._capture is None or not self._capture.is_running:
-            raise InputError("no calibration runs")
         self._capture.end()
 
     def save(self, asked: Asked) -> None:
         """Write the camera into the folder, beside the server's loop."""
         name = checked_name(cast("SaveCalibration", asked).name)
-        if self._capture is None or self._capture.solved is None:
+        capture = self._capture.newest
+        if capture is None or capture.solved is None:
             raise InputError("there is no camera to save yet")
-        self._writer.submit(self._written, self._capture, self._capture.solved, name)
+        self._writer.submit(self._written, capture, capture.solved, name)
 
     async def report(self, _: Request) -> Response:
         """Return the report of the newest camera, as a file: its styles are its own."""
-        solved = self._capture.solved if self._capture is not None else None
+        capture = self._capture.newest
+        solved = capture.solved if capture is not None else None
         if solved is None or solved.report is None:
             return Response("there is no report yet", 409, media_type="text/plain")
         disposition = {"content-disposition": 'attachment; filename="calibration.html"'}
@@ -81,8 +82,7 @@ class _Desk:
 
     def close(self) -> None:
         """End what runs."""
-        if self._capture is not None:
-            self._capture.close()
+        self._capture.close()
         self._writer.shutdown()
 
     def _wanted(self, asked: StartCalibration) -> Wanted:

@@ -8,12 +8,12 @@ from typing import Any, cast
 from fastapi import Request, Response
 from fastapi.responses import JSONResponse
 
-from tagmetry.errors import InputError
 from tagmetry.live.messages import Asked, Told
 from tagmetry.live.rooms.lens.bank import bank_table
 from tagmetry.live.rooms.lens.drive import Drive
 from tagmetry.live.rooms.lens.messages import StartLens, StopLens
 from tagmetry.live.rooms.lens.scene import checked
+from tagmetry.live.rooms.only import OnlyWork
 from tagmetry.live.rooms.room import Room
 
 _PATIENCE_S = 2.0  # of a request for the bank
@@ -38,21 +38,20 @@ class _Desk:
 
     def __init__(self, give: Callable[[Told], None]) -> None:
         self._give = give
-        self._drive: Drive | None = None
+        self._drive: OnlyWork[Drive] = OnlyWork(
+            runs="the lens is being driven already; stop it first",
+            rests="the lens is not being driven",
+        )
         self._solver = ThreadPoolExecutor(1, "lens bank")
         self._bank: Future[dict[str, Any]] | None = None
 
     def start(self, asked: Asked) -> None:
         """Look for the marker."""
         wanted = checked(cast("StartLens", asked))
-        if self._drive is not None and self._drive.is_running:
-            raise InputError("the lens is being driven already; stop it first")
-        self._drive = Drive(wanted, self._give)
+        self._drive.begin(lambda: Drive(wanted, self._give))
 
     def stop(self, _: Asked) -> None:
         """Stop where it is."""
-        if self._drive is None or not self._drive.is_running:
-            raise InputError("the lens is not being driven")
         self._drive.end()
 
     async def bank(self, _: Request) -> Response:
@@ -68,6 +67,5 @@ class _Desk:
 
     def close(self) -> None:
         """End what runs."""
-        if self._drive is not None:
-            self._drive.close()
+        self._drive.close()
         self._solver.shutdown(wait=False, cancel_futures=True)

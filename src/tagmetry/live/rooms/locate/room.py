@@ -22,6 +22,7 @@ from tagmetry.live.rooms.locate.messages import (
 )
 from tagmetry.live.rooms.locate.told import told_marker, told_point, told_residuals
 from tagmetry.live.rooms.locate.walk import Walk, checked_noise_px
+from tagmetry.live.rooms.only import OnlyWork
 from tagmetry.live.rooms.room import Room
 from tagmetry.live.rooms.work import Work
 from tagmetry.localize import MarkerMap
@@ -47,7 +48,10 @@ class _Desk:
 
     def __init__(self, give: Callable[[Told], None], folder: Folder) -> None:
         self._give, self._folder = give, folder
-        self._walker: _Walker | None = None
+        self._walker: OnlyWork[_Walker] = OnlyWork(
+            runs="the camera is being carried already; stop it first",
+            rests="the camera is not being carried",
+        )
 
     def start(self, asked: Asked) -> None:
         """Begin a walk."""
@@ -63,19 +67,14 @@ class _Desk:
 
     def stop(self, _: Asked) -> None:
         """Stop the walk."""
-        if self._walker is None or not self._walker.is_running:
-            raise InputError("the camera is not being carried")
         self._walker.end()
-
-    def _begin(self, make: Callable[[], Way]) -> None:
-        if self._walker is not None and self._walker.is_running:
-            raise InputError("the camera is being carried already; stop it first")
-        self._walker = _Walker(make, self._give)
 
     def close(self) -> None:
         """End what runs."""
-        if self._walker is not None:
-            self._walker.close()
+        self._walker.close()
+
+    def _begin(self, make: Callable[[], Way]) -> None:
+        self._walker.begin(lambda: _Walker(make, self._give))
 
 
 class _Walker(Work):
