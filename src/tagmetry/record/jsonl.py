@@ -10,11 +10,11 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
-from types import TracebackType
 from typing import BinaryIO, Generic, Self, TypeVar
 
 from pydantic import ValidationError
 
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.files.atomic import refusing
 from tagmetry.record.line import ImageLine, first_complaint, from_line, to_line
@@ -65,7 +65,7 @@ def read_lines(path: Path) -> Iterator[ImageResult]:
                 warnings.warn(text, CutLineWarning, stacklevel=2)
 
 
-class LinesWriter(Generic[Item]):
+class LinesWriter(Closing, Generic[Item]):
     """Writes results as JSON lines to a file or pipe, or to the standard output for `-`."""
 
     def __init__(self, path: str | Path, text_of: Callable[[Item], str]) -> None:
@@ -86,12 +86,8 @@ class LinesWriter(Generic[Item]):
         with refusing(self._name):
             _append_whole(self._file, content)
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
+        """Close the file; the standard output stays open."""
         if self._name != "-":
             self._file.close()
 

@@ -2,17 +2,16 @@
 
 import re
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from tagmetry.camera.image import Image
+from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.files.atomic import refusing, write_atomically
 
 SUFFIXES = (".png", ".jpg", ".jpeg")
 
 
-class PictureWriter:
+class PictureWriter(Closing):
     """Writes each image to a PNG or JPEG file.
 
     The path may hold `{stem}`, the name of the image's source without its ending, and `{sequence}`,
@@ -22,9 +21,6 @@ class PictureWriter:
     def __init__(self, path: str | Path) -> None:
         self._path = Path(path)
         self._written: set[Path] = set()
-
-    def __enter__(self) -> Self:
-        return self
 
     def write(self, item: Image) -> None:
         """Write one image.
@@ -42,12 +38,7 @@ class PictureWriter:
             write_atomically(path, _encoded(item, path))
         self._written.add(path)
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Nothing is open between images."""
 
 
