@@ -12,6 +12,7 @@ from compiled import SOURCES, build
 from stamped import StampedSocket
 
 from tagmetry.link import Host, Neighbour, Neighbours, Odometry, Received, now_us
+from tagmetry.link.sockets import LOOPBACK, UdpCarrier
 from tagmetry.pipeline.steady import steady
 
 RATE_HZ = 50
@@ -64,8 +65,9 @@ def test_no_packet_of_many_robots_is_lost(count: int, duration_s: float, tmp_pat
     sources = [SOURCES / "tagmetry_link.c", SOURCES / "tagmetry_posix.c", source]
     built = build(tmp_path / "robot", *sources)
     is_quiet = os.getloadavg()[0] < 0.3
-    with steady(), Host({n: key_of(n) for n in range(count)}, port=0) as host:
-        host._socket = stamped = StampedSocket(host._socket)
+    carrier = UdpCarrier(LOOPBACK, 0)
+    carrier._socket = stamped = StampedSocket(carrier._socket)
+    with steady(), Host({n: key_of(n) for n in range(count)}, carrier=carrier) as host:
         robots = [start(built, n, host.address[1], tmp_path) for n in range(count)]
         try:
             wait_until_linked(host)

@@ -3,10 +3,11 @@
 from collections import Counter
 from collections.abc import Mapping
 
+from tagmetry.link.carrier import Address
 from tagmetry.link.layout import Kind
 from tagmetry.link.messages import Hello
 from tagmetry.link.packet import Refusal, read_header
-from tagmetry.link.peer import Address, Peer
+from tagmetry.link.peer import Peer
 from tagmetry.link.traffic import Received
 
 

@@ -6,7 +6,6 @@ nor pulses any more, the beats end, and every robot stops by itself.
 """
 
 import secrets
-import selectors
 import threading
 import time
 from collections import deque
@@ -15,13 +14,14 @@ from typing import Self
 
 from tagmetry.closing import Closing
 from tagmetry.errors import InputError
+from tagmetry.link.carrier import Address, Carrier
 from tagmetry.link.emergency import Emergency
 from tagmetry.link.hearing import Hearing
 from tagmetry.link.layout import Kind
 from tagmetry.link.messages import KINDS, Beat, Command, Hello, Message, Time
 from tagmetry.link.packet import Refusal
-from tagmetry.link.peer import Address, Peer, RobotLink
-from tagmetry.link.sockets import LOOPBACK, open_socket
+from tagmetry.link.peer import Peer, RobotLink
+from tagmetry.link.sockets import LOOPBACK, UdpCarrier
 from tagmetry.link.traffic import Packet, Received
 from tagmetry.link.wire import BEAT_US, BODIES, KEY_BYTES, PORT
 
@@ -52,6 +52,7 @@ class Host(Closing):
         port: int = PORT,
         *,
         on_packet: OnPacket | None = None,
+        carrier: Carrier | None = None,
     ) -> None:
         """Bind the socket; nothing is heard before the with-block.
 
@@ -61,13 +62,14 @@ class Host(Closing):
             port: The port; 0 for a free one.
             on_packet: Told of every packet that is sent or accepted, from the thread that does;
                 it must return at once.
+            carrier: What brings the packets, and is closed with the host; UDP where None.
 
         Raises:
             InputError: An id or a key cannot be used, or the port is taken.
         """
         _check_keys(keys)
         self._hearing = Hearing({key: _peer(key, keys[key]) for key in keys})
-        self._socket = open_socket(address, port)
+        self._carrier = carrier if carrier is not None else UdpCarrier(address, port)
         self._emergency = Emergency()
         self._on_packet = on_packet
         self._received: deque[Received] = deque(maxlen=_KEPT)
@@ -86,13 +88,12 @@ class Host(Closing):
         """Fall silent: every robot stops by itself."""
         self._is_closing.set()
         self._thread.join()
-        self._socket.close()
+        self._carrier.close()
 
     @property
     def address(self) -> Address:
         """Where robots reach it."""
-        host, port = self._socket.getsockname()
-        return host, port
+        return self._carrier.address
 
     @property
     def is_stopped(self) -> bool:
@@ -158,16 +159,14 @@ class Host(Closing):
     def _run(self) -> None:
         """Hear and beat until the end."""
         next_us = now_us()
-        with selectors.DefaultSelector() as selector:
-            selector.register(self._socket, selectors.EVENT_READ)
-            while not self._is_closing.is_set():
-                if selector.select(max(next_us - now_us(), 0) / 1e6) and self._hear_in_turn() > 1:
-                    time.sleep(_GATHER_S)
-                if now_us() >= next_us:
-                    next_us = now_us() + BEAT_US // 2
-                    self._beat()
-                    with self._lock:
-                        self._emergency.count_down()
+        while not self._is_closing.is_set():
+            if self._carrier.wait(max(next_us - now_us(), 0) / 1e6) and self._hear_in_turn() > 1:
+                time.sleep(_GATHER_S)
+            if now_us() >= next_us:
+                next_us = now_us() + BEAT_US // 2
+                self._beat()
+                with self._lock:
+                    self._emergency.count_down()
 
     def _hear_between(self) -> None:
         """Hear from the program's thread now and then: while it sends, the link's waits for it."""
@@ -185,13 +184,10 @@ class Host(Closing):
     def _hear_some(self) -> int:
         """Hear what has arrived, but leave time for the beats in a flood; return how many."""
         for count in range(_MOST_AT_ONCE):
-            try:
-                packet, address = self._socket.recvfrom(2048)
-            except BlockingIOError:
+            found = self._carrier.read()
+            if found is None:
                 return count
-            except OSError:  # what some systems say of a robot that went away
-                continue
-            self._hear(packet, address)
+            self._hear(*found)
         return _MOST_AT_ONCE
 
     def _hear(self, packet: bytes, address: Address) -> None:
@@ -228,9 +224,7 @@ class Host(Closing):
 
     def _write(self, peer: Peer, kind: Kind, packet: bytes, address: Address) -> bool:
         """Send without the lock: both threads get their turn while the system is asked."""
-        try:
-            self._socket.sendto(packet, address)
-        except OSError:  # no way to it, or no room in the buffer: as if lost in the air
+        if not self._carrier.write(packet, address):
             return False
         self._tell(peer, kind, packet, is_incoming=False)
         return True

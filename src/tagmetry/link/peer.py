@@ -5,13 +5,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from tagmetry.link.bodies import pack_body, unpack_body
+from tagmetry.link.carrier import Address
 from tagmetry.link.keys import session_key
 from tagmetry.link.layout import Kind
 from tagmetry.link.messages import Assign, Hello, Message, Time, TimeReply
 from tagmetry.link.packet import Header, Refusal, body_of, is_sealed_with, seal
 from tagmetry.link.session import Session
-
-Address = tuple[str, int]
 
 STOPPED_FLAG = 1
 _MOST_OFFERED = 4

@@ -1,12 +1,62 @@
-"""The host's UDP socket: bound to this computer alone unless an interface is named."""
+"""The host's UDP socket: bound to this computer alone unless an interface is named.
+
+It is the carrier of packets where no other is named.
+"""
 
 import errno
+import selectors
 import socket
 
 from tagmetry.errors import InputError
+from tagmetry.link.carrier import Address
 
 LOOPBACK = "127.0.0.1"
+_MOST_ERRORS = 256  # at once
 _BUFFER_BYTES = 4 * 2**20  # the system grants what it allows
+
+
+class UdpCarrier:
+    """Carries packets in UDP."""
+
+    def __init__(self, address: str, port: int) -> None:
+        """Bind the socket, as `open_socket` does."""
+        self._socket = open_socket(address, port)
+        self._selector = selectors.DefaultSelector()
+        self._selector.register(self._socket, selectors.EVENT_READ)
+
+    @property
+    def address(self) -> Address:
+        """Where robots reach it."""
+        host, port = self._socket.getsockname()
+        return host, port
+
+    def wait(self, timeout_s: float) -> bool:
+        """Wait until a packet is there, at most so long; say whether one is."""
+        return bool(self._selector.select(timeout_s))
+
+    def read(self) -> tuple[bytes, Address] | None:
+        """Return a packet and who sent it; None where none is there."""
+        for _ in range(_MOST_ERRORS):
+            try:
+                return self._socket.recvfrom(2048)
+            except BlockingIOError:
+                return None
+            except OSError:  # what some systems say of a robot that went away
+                continue
+        return None
+
+    def write(self, packet: bytes, address: Address) -> bool:
+        """Send a packet; say whether it left."""
+        try:
+            self._socket.sendto(packet, address)
+        except OSError:  # no way to it, or no room in the buffer: as if lost in the air
+            return False
+        return True
+
+    def close(self) -> None:
+        """Close the socket."""
+        self._selector.close()
+        self._socket.close()
 
 
 def open_socket(address: str, port: int) -> socket.socket:

@@ -10,8 +10,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from tagmetry.link.carrier import Address
 from tagmetry.link.packet import Header, read_header
-from tagmetry.link.peer import Address
 from tagmetry.link.sockets import LOOPBACK, open_socket
 from tagmetry.pipeline.arena_twin.crew import Acts
 from tagmetry.pipeline.arena_twin.motor_bus import MotorBus
