@@ -21,13 +21,15 @@ from tagmetry.link import (
     parse_key,
 )
 from tagmetry.link.bodies import pack_body, unpack_body
-from tagmetry.link.messages import KINDS, Message, Time
+from tagmetry.link.layout import COVARIANCES
+from tagmetry.link.messages import KINDS, ArenaState, Message, State, Time
 from tagmetry.link.packet import Header, body_of, is_sealed_with, read_header, seal
 from tagmetry.link.wire import BODIES, FRAME_BYTES
 
 KEY = bytes(range(32))
 U64 = st.integers(0, 2**64 - 1)
 U32 = st.integers(0, 2**32 - 1)
+U16 = st.integers(0, 2**16 - 1)
 F32 = st.floats(allow_nan=False, allow_infinity=False, width=32)
 NAMES = st.text("abcdefgh_0123456789 .", min_size=1, max_size=12)
 MESSAGES = st.one_of(
@@ -35,6 +37,8 @@ MESSAGES = st.one_of(
     st.builds(Command, F32, F32, F32, st.integers(0, 65535), st.integers(0, 65535)),
     st.builds(Odometry, U64, F32, F32, F32, F32, F32, F32),
     st.builds(Time, U64, U32, U32, U32, U32),
+    st.builds(State, U64, F32, F32, F32, F32, F32, F32, U32, st.tuples(*[F32] * COVARIANCES)),
+    st.builds(ArenaState, U64, U32, U32, U16, U16),
     st.builds(Telemetry, U64, st.lists(st.tuples(NAMES, F32), max_size=64).map(tuple)),
 )
 
@@ -99,7 +103,7 @@ def test_a_name_of_telemetry_fills_twelve_bytes() -> None:
 
 @given(st.binary(max_size=1300))
 def test_no_bytes_are_a_crash(packet: bytes) -> None:
-    for sender in ("robot", "host"):
+    for sender in ("robot", "host", "arena"):
         assert isinstance(read_header(packet, sender), Refusal)
 
 

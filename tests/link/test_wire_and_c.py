@@ -32,7 +32,7 @@ def question() -> str:
     lines += [
         "#define KIND(s, f) _Generic(((s *)0)->f, uint8_t: 'B', int16_t: 'h', uint16_t: 'H', \\"
     ]
-    lines += ["    uint32_t: 'I', uint64_t: 'Q', float: 'f', char *: 's')"]
+    lines += ["    uint32_t: 'I', uint64_t: 'Q', float: 'f', float *: 'F', char *: 's')"]
     lines += ['#define PLACE(s, f) printf(#s "." #f " %zu %c\\n", offsetof(s, f), KIND(s, f))']
     lines += ["int main(void) {"]
     for layout in LAYOUTS:
@@ -50,7 +50,7 @@ def answer() -> list[str]:
         name, offsets = struct_of(layout), layout.offsets_bytes()
         lines.append(f"{name} {layout.size_bytes}")
         for field in layout.fields:
-            letter = "s" if "[" in field.c_type else wire_letter(field.c_type)
+            letter = wire_letter(field.c_type)
             lines.append(f"{name}.{field.name} {offsets[field.name]} {letter}")
     lines += [f"{name} {getattr(wire, name)}" for name in CONSTANTS]
     return lines + [f"{kind.name} {int(kind)}" for kind in Kind]
@@ -58,7 +58,8 @@ def answer() -> list[str]:
 
 def wire_letter(c_type: str) -> str:
     letters = {"uint8_t": "B", "int16_t": "h", "uint16_t": "H", "uint32_t": "I", "uint64_t": "Q"}
-    return letters.get(c_type, "f")
+    letters |= {"float": "f", "float[15]": "F", "char[12]": "s"}
+    return letters[c_type]
 
 
 def test_the_c_header_is_the_table(tmp_path: Path) -> None:

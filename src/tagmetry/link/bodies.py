@@ -8,8 +8,8 @@ import math
 import struct
 
 from tagmetry.errors import InputError
-from tagmetry.link.layout import Kind
-from tagmetry.link.messages import KINDS, Message, Neighbours, Telemetry
+from tagmetry.link.layout import COVARIANCES, Kind
+from tagmetry.link.messages import KINDS, Message, Neighbours, State, Telemetry
 from tagmetry.link.neighbour_list import pack_neighbours, unpack_neighbours
 from tagmetry.link.readings import pack_telemetry, unpack_telemetry
 from tagmetry.link.wire import BODIES
@@ -28,7 +28,7 @@ def pack_body(message: Message) -> tuple[Kind, bytes]:
         return kind, pack_neighbours(message)
     if isinstance(message, Telemetry):
         return kind, pack_telemetry(message)
-    numbers = tuple(vars(message).values())
+    numbers = _numbers(message)
     try:
         body = BODIES[kind].layout.packing.pack(*numbers)
     except (struct.error, OverflowError, TypeError) as error:
@@ -50,7 +50,16 @@ def unpack_body(kind: Kind, body: bytes) -> Message | None:
     if kind is Kind.TELEMETRY:
         return unpack_telemetry(body)
     numbers = BODIES[kind].layout.packing.unpack(body)
-    return _TYPES[kind](*numbers) if _are_finite(numbers) else None
+    if not _are_finite(numbers):
+        return None
+    if kind is Kind.STATE:
+        numbers = (*numbers[:-COVARIANCES], numbers[-COVARIANCES:])
+    return _TYPES[kind](*numbers)
+
+
+def _numbers(message: Message) -> tuple[float, ...]:
+    numbers = tuple(vars(message).values())
+    return (*numbers[:-1], *message.covariance) if isinstance(message, State) else numbers
 
 
 def _are_finite(numbers: tuple[float, ...]) -> bool:

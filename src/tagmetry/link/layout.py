@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Literal
 
 KEY_CHARACTERS = 12  # in the name of a reading
+COVARIANCES = 15  # of five numbers, each pair once
 
 C_FORMATS = {
     "uint8_t": "B",
@@ -16,9 +17,10 @@ C_FORMATS = {
     "uint64_t": "Q",
     "float": "f",
     f"char[{KEY_CHARACTERS}]": f"{KEY_CHARACTERS}s",
+    f"float[{COVARIANCES}]": f"{COVARIANCES}f",
 }
 
-Sender = Literal["robot", "host"]
+Sender = Literal["robot", "host", "arena"]  # the arena is the host as it speaks to all
 
 
 class Kind(IntEnum):
@@ -35,6 +37,8 @@ class Kind(IntEnum):
     COMMAND = 9
     ODOMETRY = 10
     TELEMETRY = 11
+    STATE = 12
+    ARENA = 13
 
 
 @dataclass(frozen=True)

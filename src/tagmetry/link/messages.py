@@ -127,6 +127,35 @@ class Telemetry:
     readings: tuple[tuple[str, float], ...] = field(default=())
 
 
+@dataclass(frozen=True)
+class State:
+    """Where a robot is and how sure that is; `flags` 1: the image shows it, 2: must stand still.
+
+    The covariance is the upper triangle, row by row, of that of x, y, heading, speed, turn rate.
+    """
+
+    moment_us: int
+    x_m: float
+    y_m: float
+    heading_rad: float
+    speed_mps: float
+    turn_rate_radps: float
+    age_s: float
+    flags: int
+    covariance: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class ArenaState:
+    """All of one image was told; `flags` 1: the stop for all is pressed."""
+
+    moment_us: int
+    image: int
+    flags: int
+    robots: int
+    seen: int
+
+
 Message = (
     Hello
     | Assign
@@ -139,6 +168,8 @@ Message = (
     | Command
     | Odometry
     | Telemetry
+    | State
+    | ArenaState
 )
 
 KINDS: dict[type[Message], Kind] = {
@@ -153,4 +184,6 @@ KINDS: dict[type[Message], Kind] = {
     Command: Kind.COMMAND,
     Odometry: Kind.ODOMETRY,
     Telemetry: Kind.TELEMETRY,
+    State: Kind.STATE,
+    ArenaState: Kind.ARENA,
 }

@@ -5,7 +5,7 @@ says the same, and a test compares the two with a compiler; the page of the prot
 here.
 """
 
-from tagmetry.link.layout import KEY_CHARACTERS, Body, Field, Kind, Layout
+from tagmetry.link.layout import COVARIANCES, KEY_CHARACTERS, Body, Field, Kind, Layout
 
 MAGIC = 0x4D54  # the bytes `TM`
 VERSION = 1
@@ -193,6 +193,44 @@ BODIES: dict[Kind, Body] = {
             Layout("telemetry", (Field("measured_us", "uint64_t", "in the host's clock"),)),
             "Numbers by name, whatever the robot wants to tell.",
             READING,
+        ),
+        Body(
+            Kind.STATE,
+            "arena",
+            Layout(
+                "state",
+                (
+                    Field("moment_us", "uint64_t", "when the robot is there, in the host's clock"),
+                    Field("x_m", "float", "the robot in the world"),
+                    Field("y_m", "float", "the robot in the world"),
+                    Field("heading_rad", "float", "from the world's x, counter-clockwise"),
+                    Field("speed_mps", "float", "forward"),
+                    Field("turn_rate_radps", "float", "counter-clockwise"),
+                    Field("age_s", "float", "since an image showed it, at that moment"),
+                    Field("flags", "uint32_t", "bit 0: the image shows it; 1: it must stand still"),
+                    Field(
+                        "covariance",
+                        f"float[{COVARIANCES}]",
+                        "of x, y, heading, speed, turn rate: upper triangle, row by row",
+                    ),
+                ),
+            ),
+            "Where a robot is and how sure that is, for other computers.",
+        ),
+        Body(
+            Kind.ARENA,
+            "arena",
+            Layout(
+                "arena",
+                (
+                    Field("moment_us", "uint64_t", "as in the states that it follows"),
+                    Field("image", "uint32_t", "counts the images"),
+                    Field("flags", "uint32_t", "bit 0: the stop for all is pressed"),
+                    Field("robots", "uint16_t", "how many states belong to the image"),
+                    Field("seen", "uint16_t", "how many of these robots the image shows"),
+                ),
+            ),
+            "All of one image was told.",
         ),
     )
 }

@@ -34,7 +34,8 @@ extern "C" {
 
 enum tm_kind {
     TM_HELLO = 1, TM_ASSIGN = 2, TM_TIME = 3, TM_TIME_REPLY = 4, TM_BEAT = 5, TM_ESTOP = 6,
-    TM_POSE = 7, TM_NEIGHBOURS = 8, TM_COMMAND = 9, TM_ODOMETRY = 10, TM_TELEMETRY = 11
+    TM_POSE = 7, TM_NEIGHBOURS = 8, TM_COMMAND = 9, TM_ODOMETRY = 10, TM_TELEMETRY = 11,
+    TM_STATE = 12, TM_ARENA = 13 /* for other computers; robots are sent none */
 };
 
 #define TM_PACKED __attribute__((packed))
@@ -96,6 +97,19 @@ typedef struct TM_PACKED {
     char key[12]; /* filled up with zeros */
     float value;
 } tm_reading;
+
+typedef struct TM_PACKED {
+    uint64_t moment_us;
+    float x_m, y_m, heading_rad, speed_mps, turn_rate_radps, age_s;
+    uint32_t flags;
+    float covariance[15]; /* x, y, heading, speed, turn rate: upper triangle, row by row */
+} tm_state;
+
+typedef struct TM_PACKED {
+    uint64_t moment_us;
+    uint32_t image, flags;
+    uint16_t robots, seen;
+} tm_arena;
 
 /* One robot's link. Read `pose`, `neighbours` and `seen`; the rest belongs to the functions. */
 typedef struct {
