@@ -8,7 +8,7 @@ import pytest
 from overhead import CAMERA, VIEW, moved, robot, seen
 from scipy.optimize import least_squares
 
-from tagmetry.arena import Mount, OverheadView, Roster, point_on_plane, sight
+from tagmetry.arena import Mount, OverheadView, Roster, fit_squares, point_on_plane, sight
 from tagmetry.errors import InputError
 from tagmetry.geometry import RigidTransform, mahalanobis_squared
 from tagmetry.geometry.transforms import Rotation
@@ -152,15 +152,23 @@ def test_a_robots_key_is_not_shown() -> None:
     assert "secret" not in repr(replace(robot(1), key=b"secret"))
 
 
-def test_the_quick_start_of_a_fit_is_near_and_the_fit_exact() -> None:
-    rng = np.random.default_rng(5)
-    pixels = rng.uniform(0, [1919, 1079], (300, 2))
-    exact = VIEW.points_on_plane(pixels, 0.1)
-    near = VIEW.points_near_plane(pixels, 0.1)
-    assert np.abs(near - exact).max() < 1e-3
-    assert np.isnan(VIEW.points_near_plane(np.array([[np.nan, 5.0]]))).all()
+def test_a_fit_is_exact_at_the_images_corner() -> None:
     at_corner = sight([seen(robot(3), np.array([0.95, 0.6, 1.0]))], Roster((robot(3),)), VIEW)
     np.testing.assert_allclose(at_corner.places[0], [0.95, 0.6, 1.0], atol=1e-9)
+
+
+def test_squares_that_cannot_be_placed_are_unknown_and_leave_the_others_alone() -> None:
+    """No ray, no covariance, and a plane above the camera."""
+    clean = seen(robot(3), PLACE)
+    corners_px, heights_m = np.array([clean.corners_px] * 4), np.full(4, 0.1)
+    covariances_px2 = np.array([clean.corners_cov_px2] * 4)
+    corners_px[0, 2], covariances_px2[1], heights_m[2] = np.nan, -np.eye(8), 9.0
+    sizes_m = np.full(4, robot(3).marker_size_m)
+    fits = fit_squares(VIEW, corners_px, covariances_px2, sizes_m, heights_m)
+    alone = fit_squares(VIEW, corners_px[3:], covariances_px2[3:], sizes_m[3:], heights_m[3:])
+    for name, values in vars(fits).items():
+        assert np.isnan(values[:3]).all(), name
+        np.testing.assert_allclose(values[3:], getattr(alone, name), rtol=1e-6, atol=1e-9)
 
 
 def test_pixels_move_with_the_camera_as_they_are_said_to() -> None:
@@ -188,7 +196,7 @@ def test_a_fit_is_the_least_squares_of_the_corners() -> None:
         best = least_squares(residuals, place, xtol=1e-15, ftol=1e-15, gtol=1e-15)
         found = sight([detection], Roster((one,)), VIEW)
         np.testing.assert_allclose(found.places[0], best.x, atol=5e-7)
-        assert found.chi2[0] == pytest.approx(2 * best.cost, rel=1e-4)
+        assert found.chi2[0] == pytest.approx(2 * best.cost, rel=1e-3)
         np.testing.assert_allclose(
             found.noise[0], np.linalg.inv(best.jac.T @ best.jac), rtol=1e-2, atol=1e-9
         )

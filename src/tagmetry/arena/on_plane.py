@@ -15,7 +15,6 @@ from functools import cached_property
 
 import numpy as np
 
-from tagmetry.arena.ray_table import RayTable
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform, cross_matrix
 
@@ -45,32 +44,21 @@ class OverheadView:
         Returns:
             World points, shape (..., 3), metres; NaN where the ray misses the plane.
         """
-        return self._meet(self.camera.unproject(pixels), height_m)
-
-    def _meet(self, rays_camera: Array, height_m: Array | float) -> Array:
-        """Return where rays of the camera's frame meet level planes."""
-        origin = np.asarray(self.T_world_camera.translation)
-        rays = rays_camera @ self._R_world_camera.T
+        origin = self.camera_in_world
+        rays = self.camera.unproject(pixels) @ self.R_world_camera.T
         with np.errstate(divide="ignore", invalid="ignore"):
             scale = (height_m - origin[2]) / rays[..., 2]
             hits = np.isfinite(scale) & (scale > 0)
         return np.asarray(origin + np.where(hits, scale, np.nan)[..., None] * rays)
 
-    def points_near_plane(self, pixels: Array, height_m: Array | float = 0.0) -> Array:
-        """Return `points_on_plane` to a fraction of a pixel, much quicker, to begin a fit with."""
-        rays = self._table.rays(pixels)
-        if not np.isfinite(rays).all():
-            return self.points_on_plane(pixels, height_m)
-        return self._meet(rays, height_m)
-
     def pixels_of(self, p_world: Array) -> Array:
         """Return the pixels of world points, shape (..., 2)."""
-        rays = (p_world - self.T_world_camera.translation) @ self._R_world_camera
+        rays = (p_world - self.T_world_camera.translation) @ self.R_world_camera
         return self.camera.project(rays)
 
     def project(self, p_world: Array) -> tuple[Array, Array]:
         """Return pixels, shape (..., 2), and d(pixel) / d(world point), shape (..., 2, 3)."""
-        R_camera_world = self._R_world_camera.T
+        R_camera_world = self.R_world_camera.T
         p_camera = (p_world - self.T_world_camera.translation) @ R_camera_world.T
         pixels, by_point = self.camera.project_with_jacobian(p_camera)
         return pixels, np.asarray(by_point @ R_camera_world)
@@ -81,12 +69,14 @@ class OverheadView:
         return np.concatenate([-by_point, by_point @ arm], axis=-1)
 
     @cached_property
-    def _table(self) -> RayTable:
-        return RayTable.of(self.camera)
+    def R_world_camera(self) -> Array:  # noqa: N802 (a frame's name)
+        """How the camera is turned, shape (3, 3)."""
+        return np.asarray(self.T_world_camera.rotation.as_matrix())
 
     @cached_property
-    def _R_world_camera(self) -> Array:  # noqa: N802 (a frame's name)
-        return np.asarray(self.T_world_camera.rotation.as_matrix())
+    def camera_in_world(self) -> Array:
+        """Where the camera is, shape (3,), m."""
+        return np.asarray(self.T_world_camera.translation)
 
 
 def point_on_plane(

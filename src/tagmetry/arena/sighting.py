@@ -1,8 +1,6 @@
 """From the markers of one image to the robots that it shows: where each is, and how sure.
 
-A robot's centre is where its mount says it is from its marker:
-
-    heading = f - turn,   (x, y) = (x_marker, y_marker) - R(heading) (forward, left)
+A robot's centre is where its mount says it is from its marker.
 
 The corners' noise is new in every image and is what a filter may average. The errors of the
 camera's pose and of the marker's height stay the same from image to image; they are kept apart, and
@@ -15,16 +13,15 @@ from functools import cached_property
 
 import numpy as np
 
+from tagmetry.arena.below_squares import centred
 from tagmetry.arena.on_plane import OverheadView
 from tagmetry.arena.robot import Robot
-from tagmetry.arena.square_fit import FREEDOM, SquareFits, fit_squares
+from tagmetry.arena.square_fit import fit_squares
 from tagmetry.detect import Detection
 from tagmetry.errors import InputError
-from tagmetry.geometry import Array, wrap_angle_rad
+from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, IntArray
 from tagmetry.markers.bodies import MarkerKey
-
-_POOR_CHI2 = 20.5  # one good fit of a thousand is worse
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,61 +108,23 @@ def sight(detections: Sequence[Detection], roster: Roster, view: OverheadView) -
         view: The camera over the floor.
     """
     known = roster.row_by_marker
-    own = _usable([one for one in detections if MarkerKey(one.family, one.id) in known])
-    rows = np.array([known[MarkerKey(one.family, one.id)] for one in own], dtype=np.int64)
-    corners_px = np.array([one.corners_px for one in own]).reshape(-1, 4, 2)
-    covariances_px2 = np.array([one.corners_cov_px2 for one in own]).reshape(-1, 8, 8)
+    rows_of = [known.get(MarkerKey(one.family, one.id)) for one in detections]
+    pairs = zip(rows_of, detections, strict=True)
+    own = [(row, one) for row, one in pairs if row is not None and _has_corners(one)]
+    rows = np.array([row for row, _ in own], dtype=np.int64)
+    corners_px = np.array([one.corners_px for _, one in own]).reshape(-1, 4, 2)
+    covariances_px2 = np.array([one.corners_cov_px2 for _, one in own]).reshape(-1, 8, 8)
     mounts = roster.mounts[rows]
     fits = fit_squares(view, corners_px, covariances_px2, mounts[:, 0], mounts[:, 1])
-    seen = _centred(fits, rows, mounts, view)
-    return seen.at(np.isfinite(seen.places).all(axis=1) & np.isfinite(seen.chi2))
+    squares = fits.places, fits.noise, fits.by_camera, fits.by_height, fits.chi2
+    places, noise, common = centred(squares, mounts, view.covariance)
+    seen = Sightings(rows, places, noise, common, fits.chi2)
+    is_placed = np.isfinite(places).all(axis=1) & np.isfinite(fits.chi2)
+    return seen if is_placed.all() else seen.at(is_placed)
 
 
-def _centred(fits: SquareFits, rows: IntArray, mounts: Array, view: OverheadView) -> Sightings:
-    """Return the robots below squares."""
-    heading = fits.places[:, 2] - mounts[:, 5]
-    to_marker = _turned(mounts[:, 3:5], heading)
-    places = np.column_stack([fits.places[:, :2] - to_marker, wrap_angle_rad(heading)])
-    by_marker = np.broadcast_to(np.eye(3), (len(rows), 3, 3)).copy()
-    by_marker[:, 0, 2], by_marker[:, 1, 2] = to_marker[:, 1], -to_marker[:, 0]
-    spread2 = np.where(fits.chi2 > _POOR_CHI2, fits.chi2 / FREEDOM, 1.0)
-    by_height = fits.by_height * mounts[:, 2:3]
-    common = fits.by_camera @ view.covariance @ np.swapaxes(fits.by_camera, 1, 2)
-    common = common + by_height[:, :, None] * by_height[:, None, :]
-    noise = _carried(by_marker, spread2[:, None, None] * fits.noise)
-    return Sightings(rows, places, noise, _carried(by_marker, common), fits.chi2)
-
-
-def _turned(forward_left: Array, heading: Array) -> Array:
-    """Return vectors of the robots' frames in the world, shape (n, 2)."""
-    cosine, sine = np.cos(heading), np.sin(heading)
-    forward, left = forward_left.T
-    return np.column_stack([cosine * forward - sine * left, sine * forward + cosine * left])
-
-
-def _carried(jacobians: Array, covariances: Array) -> Array:
-    return np.asarray(jacobians @ covariances @ np.swapaxes(jacobians, 1, 2))
-
-
-def _usable(detections: Sequence[Detection]) -> list[Detection]:
-    """Return those whose numbers are usable; all at once, since they nearly always are."""
-    if _are_usable(detections):
-        return list(detections)
-    return [one for one in detections if _are_usable([one])]
-
-
-def _are_usable(detections: Sequence[Detection]) -> bool:
-    corners = [one.corners_px for one in detections]
-    covariances = [one.corners_cov_px2 for one in detections]
-    if {one.shape for one in corners} - {(4, 2)} or {one.shape for one in covariances} - {(8, 8)}:
-        return False
-    if not (np.isfinite(corners).all() and np.isfinite(covariances).all()):
-        return False
-    try:
-        np.linalg.cholesky(np.reshape(covariances, (-1, 8, 8)))
-    except np.linalg.LinAlgError:
-        return False
-    return True
+def _has_corners(detection: Detection) -> bool:
+    return detection.corners_px.shape == (4, 2) and detection.corners_cov_px2.shape == (8, 8)
 
 
 def _check_unique(kind: str, values: Sequence[object]) -> None:

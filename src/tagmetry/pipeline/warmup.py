@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tagmetry.arena import Arena, Mount, OverheadView, Robot, Roster
 from tagmetry.calibrate.targets import find_board
 from tagmetry.camera import Camera
 from tagmetry.camera.lens import BrownLens, FisheyeLens
@@ -49,6 +50,7 @@ def steps() -> tuple[Step, ...]:
         Step("poses", _measure),
         Step("localization", _locate),
         Step("tracking", _track),
+        Step("arena", _follow),
         Step("calibration", _find_board),
     )
 
@@ -98,6 +100,16 @@ def _track() -> None:
     tracker, picture = Tracker(), _picture()
     for k in range(2):
         tracker.track(picture, k / 30, _CAMERA)
+
+
+def _follow() -> None:
+    """Follow a robot that is seen twice."""
+    robot = Robot(1, "robot", _SIZE_M, _FAMILIES[0], 3, _SIZE_M, Mount(_SIZE_M))
+    above = RigidTransform.from_components([0.0, 0.0, 1.0], _FACING)
+    arena = Arena(Roster((robot,)), OverheadView(_CAMERA, above, np.zeros((6, 6))))
+    found = Detector(_FAMILIES).detect(_picture(), _CAMERA)
+    for k in range(2):
+        arena.take(found, k / 30)
 
 
 def _find_board() -> None:

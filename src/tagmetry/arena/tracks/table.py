@@ -5,6 +5,7 @@ from typing import Self
 
 import numpy as np
 
+from tagmetry.arena.tracks.filter import distances2, update
 from tagmetry.arena.tracks.motion import Motion
 from tagmetry.geometry import Array, wrap_angle_rad
 from tagmetry.geometry.arrays import BoolArray, IntArray
@@ -67,21 +68,13 @@ class TrackTable:
         self, rows: IntArray, places: Array, noise: Array, common: Array, time_s: float
     ) -> "TrackTable":
         """Return the table after robots were seen (Kalman's update, in Joseph's form)."""
-        before = self.covariances[rows]
-        gain = before[:, :, :3] @ np.linalg.inv(before[:, :3, :3] + noise)
-        keeps = np.broadcast_to(np.eye(5), before.shape).copy()
-        keeps[:, :, :3] -= gain
         means, covariances = self.means.copy(), self.covariances.copy()
-        means[rows] += (gain @ innovations(self.means[rows], places)[:, :, None])[..., 0]
-        means[rows, 2] = wrap_angle_rad(means[rows, 2])
-        covariances[rows] = keeps @ before @ keeps.mT + gain @ noise @ gain.mT
+        update(means, covariances, rows, places, noise)
         return self._with(rows, means, covariances, common, time_s)
 
     def distances2(self, rows: IntArray, places: Array, noise: Array) -> Array:
         """Return squared Mahalanobis distances of sightings from their tracks, shape (m,)."""
-        off = innovations(self.means[rows], places)
-        spread = self.covariances[rows][:, :3, :3] + noise
-        return np.asarray((off[:, None, :] @ np.linalg.solve(spread, off[..., None]))[:, 0, 0])
+        return distances2(self.means, self.covariances, rows, places, noise)
 
     def _with(
         self, rows: IntArray, means: Array, covariances: Array, common: Array, time_s: float
