@@ -102,7 +102,7 @@ def test_a_camera_without_covariance_and_a_marker_too_far_away(
         (("--size", "12cm", "--distance", "2", "--at", "middle"), "expected pixels like 320,100"),
         (("--size", "12cm", "--distance", "2", "--contrast", "300"), "0 < black < white"),
         (("--size", "12cm", "--distance", "2", "--family", "tag99"), "tag99"),
-        (("--size", "12cm", "--distance", "2", "--picture", "a.jpg"), "ends in .png"),
+        (("--size", "12cm", "--distance", "2", "--picture", "a.jpg"), "the picture is a PNG"),
     ],
 )
 def test_what_it_refuses(

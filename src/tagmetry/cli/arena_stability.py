@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tagmetry.cli.options import Json
+from tagmetry.cli.answer import answer
+from tagmetry.cli.options import Json, check_png
 
 if TYPE_CHECKING:
     from tagmetry.arena import NeighbourSensor
-    from tagmetry.arena.stability import FollowingSetting, Margins, StabilityReport
+    from tagmetry.arena.stability import FollowingSetting
 
 _CURVE_MS = 10.0  # from point to point
 
@@ -55,10 +56,9 @@ def stability(  # noqa: PLR0913 (each argument is an option)
     from tagmetry.arena.controllers import Spring
     from tagmetry.arena.stability import FollowingSetting
     from tagmetry.arena.stability import stability as stability_of
-    from tagmetry.cli.options import check_png
+    from tagmetry.cli.arena_stability_report import stability_lines, stability_table
 
-    if picture is not None:
-        check_png(picture)
+    check_png(picture)
     arenas_m, sensor = _of_arena(arena) if arena is not None else (0.16, NeighbourSensor())
     diameter_m = arenas_m if diameter_mm is None else diameter_mm / 1000
     setting = FollowingSetting(
@@ -72,62 +72,9 @@ def stability(  # noqa: PLR0913 (each argument is an option)
     )
     sd_m = ((place_sd_mm / 1000) ** 2 + sensor.range_sd_m**2 / 2) ** 0.5
     report = stability_of(setting, sd_m, diameter_m)
-    _tell(report, json=json)
+    answer(json=json, table=lambda: stability_table(report), lines=lambda: stability_lines(report))
     if picture is not None:
         _draw(picture, setting, sd_m, diameter_m)
-
-
-def stability_lines(report: "StabilityReport") -> tuple[str, ...]:
-    """Return what a report says, line by line."""
-    delay_ms = 1000 * report.setting.delay_s
-    if not report.is_stable:
-        return (f"stability at {delay_ms:.0f} ms: it swings up; take a softer spring",)
-    return (
-        f"stability at {delay_ms:.0f} ms, along: {_told(report.along)}",
-        f"stability at {delay_ms:.0f} ms, facing: {_told(report.across)}",
-        f"expected: {1000 * report.nearest_m:.1f} to {1000 * report.farthest_m:.1f} mm apart, "
-        f"noise {3000 * report.gap_sd_m:.1f} mm (3 sd), overshoot {100 * report.overshoot:.0f} %; "
-        + _air(report),
-    )
-
-
-def _told(one: "Margins") -> str:
-    from math import degrees
-
-    return (
-        f"gain x {one.gain:.1f}, phase {degrees(one.phase_rad):.0f} deg, "
-        f"{1000 * one.delay_s:.0f} ms later than told"
-    )
-
-
-def _air(report: "StabilityReport") -> str:
-    if report.air_m < 0:
-        return "the bodies may touch"
-    return f"{1000 * report.air_m:.1f} mm of air left"
-
-
-def _tell(report: "StabilityReport", *, json: bool) -> None:
-    if not json:
-        typer.echo("\n".join(stability_lines(report)))
-        return
-    import json as json_text
-
-    typer.echo(json_text.dumps(_table(report)))
-
-
-def _table(report: "StabilityReport") -> dict[str, object]:
-    """Return a report as JSON has it: null for what has no end."""
-    named = ("overshoot", "nearest_m", "farthest_m", "gap_sd_m", "worst_m", "air_m")
-    numbers = {name: _finite(getattr(report, name)) for name in named}
-    margins = {
-        part: {name: _finite(value) for name, value in vars(getattr(report, part)).items()}
-        for part in ("along", "across")
-    }
-    return {"delay_s": report.setting.delay_s, "is_stable": report.is_stable, **margins, **numbers}
-
-
-def _finite(value: float) -> float | None:
-    return value if abs(value) < float("inf") else None
 
 
 def _of_arena(path: Path) -> "tuple[float, NeighbourSensor]":

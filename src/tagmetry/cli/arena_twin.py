@@ -157,7 +157,7 @@ def tell_summary(summary: "Summary", took_s: float) -> None:
 def _tell_stability(scenario: "Scenario") -> None:
     """Print what was to be expected of followers at this delay."""
     from tagmetry.arena.stability import FollowingSetting, stability
-    from tagmetry.cli.arena_stability import stability_lines
+    from tagmetry.cli.arena_stability_report import stability_lines
     from tagmetry.pipeline.arena_twin.run import TICK_S
 
     twin = scenario.robots[0]

@@ -68,7 +68,9 @@ def calibrate(  # noqa: PLR0913 (each argument is an option)
     json: Json = False,
 ) -> None:
     """Calibrate a camera, and say what the calibration is worth."""
+    from tagmetry.cli.answer import answer
     from tagmetry.cli.calibrate_live import watched
+    from tagmetry.cli.calibrate_report import run_lines, run_table
 
     request = _request(board, model, shape, views, measured)
     request = _held(request, fix_aspect=fix_aspect, fix_center=fix_center)
@@ -79,7 +81,7 @@ def calibrate(  # noqa: PLR0913 (each argument is an option)
         seen = tuple(_sightings(sources, request))
     run = _run(seen, request, board)
     _write(run, out, report, figures, csv)
-    _tell(run, json)
+    answer(json=json, table=lambda: run_table(run), lines=lambda: run_lines(run))
 
 
 def _request(board: str, model: str, shape: str, views: int, measured: str | None) -> "Request":
@@ -192,14 +194,3 @@ def _write(
             save_camera(run.calibration.camera, out)
     for path in filter(None, (out, report, figures, csv)):
         typer.echo(f"wrote {path}", err=True)
-
-
-def _tell(run: "CalibrationRun", as_json: bool) -> None:
-    from tagmetry.cli.calibrate_report import run_lines, run_table
-
-    if as_json:
-        import json
-
-        typer.echo(json.dumps(run_table(run)))
-    else:
-        typer.echo("\n".join(run_lines(run)))

@@ -5,12 +5,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from tagmetry.cli.answer import answer
 from tagmetry.cli.options import Json
 from tagmetry.cli.pixels import whole_numbers
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from tagmetry.camera import Camera
 
 app = typer.Typer(
@@ -41,17 +40,17 @@ def show(
 
     if is_bank_file(file):
         bank = load_bank(file)
-        _print(
-            json,
-            lambda: bank_report.bank_table(bank, step),
-            lambda: bank_report.bank_lines(bank, step),
+        answer(
+            json=json,
+            table=lambda: bank_report.bank_table(bank, step),
+            lines=lambda: bank_report.bank_lines(bank, step),
         )
     else:
         camera = load_camera(file, name)
-        _print(
-            json,
-            lambda: camera_report.camera_table(camera),
-            lambda: camera_report.camera_lines(camera),
+        answer(
+            json=json,
+            table=lambda: camera_report.camera_table(camera),
+            lines=lambda: camera_report.camera_lines(camera),
         )
 
 
@@ -141,17 +140,6 @@ def convert(
     camera = _rotated(camera, rotate)
     save_camera(camera, out, file_format)  # type: ignore[arg-type]
     typer.echo(f"wrote {camera.width_px}x{camera.height_px} camera -> {out}")
-
-
-def _print(
-    as_json: bool, table: "Callable[[], dict[str, object]]", lines: "Callable[[], list[str]]"
-) -> None:
-    if as_json:
-        import json
-
-        typer.echo(json.dumps(table()))
-    else:
-        typer.echo("\n".join(lines()))
 
 
 def _cropped(camera: "Camera", window: str | None) -> "Camera":

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
+from tagmetry.cli.answer import answer
 from tagmetry.cli.options import Json, check_png
 
 if TYPE_CHECKING:
@@ -40,34 +41,34 @@ def compare(
     from tagmetry.files.trajectories import load_trajectory
     from tagmetry.localize.trajectory import compare as compared
 
-    if picture is not None:
-        check_png(picture)
+    check_png(picture)
     found = compared(
         load_trajectory(estimated), load_trajectory(true), align=align, gap_s=gap, step_s=step
     )
     if picture is not None:
         _draw(picture, found)
-    _tell(found, json=json)
+    answer(json=json, table=lambda: _table(found), lines=lambda: _lines(found))
 
 
-def _tell(found: "Comparison", *, json: bool) -> None:
-    from json import dumps
-
-    if json:
-        typer.echo(dumps(_line(found), allow_nan=False))
-        return
+def _lines(found: "Comparison") -> list[str]:
     both = found.both
-    typer.echo(
-        f"{len(both.true.times_s)} poses over {both.true.length_m:.3f} m"
-        f"{f', {both.unmatched} without a true one' if both.unmatched else ''}"
-    )
-    typer.echo(f"{'':22}{'rms':>10}{'mean':>10}{'median':>10}{'largest':>10}")
-    for name, spread in _spreads(found).items():
-        numbers = (spread.rms, spread.mean, spread.median, spread.largest)
-        typer.echo(f"{name:22}" + "".join(f"{number:10.3f}" for number in numbers))
+    unmatched = f", {both.unmatched} without a true one" if both.unmatched else ""
+    rows = [
+        f"{name:22}" + "".join(f"{one:10.3f}" for one in _numbers(spread))
+        for name, spread in _spreads(found).items()
+    ]
+    return [
+        f"{len(both.true.times_s)} poses over {both.true.length_m:.3f} m{unmatched}",
+        f"{'':22}{'rms':>10}{'mean':>10}{'median':>10}{'largest':>10}",
+        *rows,
+    ]
 
 
-def _line(found: "Comparison") -> dict[str, Any]:
+def _numbers(spread: "Spread") -> tuple[float, ...]:
+    return spread.rms, spread.mean, spread.median, spread.largest
+
+
+def _table(found: "Comparison") -> dict[str, Any]:
     from dataclasses import asdict
     from math import isfinite
 

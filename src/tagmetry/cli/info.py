@@ -2,9 +2,8 @@
 
 from importlib.metadata import PackageNotFoundError, version
 
-import typer
-
 from tagmetry import __version__
+from tagmetry.cli.answer import answer
 from tagmetry.cli.options import Json
 
 _PARTS = {"print": "reportlab", "video": "av", "parquet": "pyarrow"}
@@ -14,12 +13,7 @@ _PACKAGES = ("numpy", "scipy", "opencv-python-headless", "pydantic")
 def info(*, json: Json = False) -> None:
     """Say what is installed, and which marker families there are."""
     table = _table()
-    if json:
-        import json as json_text
-
-        typer.echo(json_text.dumps(table))
-        return
-    typer.echo("\n".join(_lines(table)))
+    answer(json=json, table=lambda: table, lines=lambda: _lines(table))
 
 
 def _table() -> dict[str, dict[str, object]]:

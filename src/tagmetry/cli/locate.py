@@ -72,8 +72,7 @@ def locate(  # noqa: PLR0913 (each argument is an option)
 
     if out == "-":
         json, out = True, None
-    if picture is not None:
-        check_png(picture)
+    check_png(picture)
     marker_map = _map(map_file, family, size, bundle)
     robot = parse_planar(planar) if planar is not None else None
     task = _location(marker_map, camera, method, robot, odometry, inverted=inverted)

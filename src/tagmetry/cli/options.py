@@ -55,9 +55,9 @@ def measurement(
     )
 
 
-def check_png(picture: Path) -> None:
+def check_png(picture: Path | None) -> None:
     """Refuse the name of a picture that is to be written as another format than PNG."""
     from tagmetry.errors import InputError
 
-    if picture.suffix.lower() != ".png":
+    if picture is not None and picture.suffix.lower() != ".png":
         raise InputError(f"the picture is a PNG; name it like map.png, got {picture.name[-40:]}")

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tagmetry.cli.options import Json
+from tagmetry.cli.answer import answer
+from tagmetry.cli.options import Json, check_png
 
 if TYPE_CHECKING:
     from tagmetry.pose.plan import Free, Setup
@@ -52,10 +53,12 @@ def plan(  # noqa: PLR0913 (each argument is an option)
     json: Json = False,
 ) -> None:
     """Say how exact a marker's pose will be, what limits it, and how far it is found."""
+    from tagmetry.cli.plan_report import plan_lines, plan_table
     from tagmetry.files import load_camera, resolve_family
     from tagmetry.files.lengths import parse_length_m
-    from tagmetry.pose.plan import Imaging, Setup
+    from tagmetry.pose.plan import Imaging, Setup, predict, solved
 
+    check_png(picture)
     free = _free(size, distance, want)
     setup = Setup(
         load_camera(camera),
@@ -69,8 +72,13 @@ def plan(  # noqa: PLR0913 (each argument is an option)
         imaging=Imaging.of_contrast(contrast, noise, blur, exposure),
     )
     if want is not None and free is not None:
-        setup = _solved(setup, parse_length_m(want), free)
-    _tell(setup, free, json=json)
+        setup = solved(setup, parse_length_m(want), free)
+    prediction = predict(setup)
+    answer(
+        json=json,
+        table=lambda: plan_table(prediction, free),
+        lines=lambda: plan_lines(prediction, free),
+    )
     if picture is not None:
         _draw(setup, picture)
 
@@ -97,31 +105,9 @@ def _free(size: str | None, distance: str | None, want: str | None) -> "Free | N
     return "size" if size is None else "distance" if distance is None else "resolution"
 
 
-def _solved(setup: "Setup", want_m: float, free: "Free") -> "Setup":
-    from tagmetry.pose.plan import solved
-
-    return solved(setup, want_m, free)
-
-
-def _tell(setup: "Setup", free: "Free | None", *, json: bool) -> None:
-    from tagmetry.cli.plan_report import plan_lines, plan_table
-    from tagmetry.pose.plan import predict
-
-    prediction = predict(setup)
-    if json:
-        import json as json_text
-
-        typer.echo(json_text.dumps(plan_table(prediction, free)))
-        return
-    typer.echo("\n".join(plan_lines(prediction, free)))
-
-
 def _draw(setup: "Setup", path: Path) -> None:
-    from tagmetry.errors import InputError
     from tagmetry.files.atomic import write_atomically
     from tagmetry.pose.plan import over_volume
     from tagmetry.record.plan_picture import plan_picture
 
-    if path.suffix.lower() != ".png":
-        raise InputError(f"expected a picture's name that ends in .png, found {path}")
     write_atomically(path, plan_picture(setup, over_volume(setup)))
