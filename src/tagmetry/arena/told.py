@@ -1,6 +1,7 @@
 """What one robot is told of those around it, in its own frame: x forward, y to its left."""
 
 from dataclasses import dataclass
+from math import cos, sin
 from typing import NamedTuple
 
 
@@ -20,6 +21,16 @@ class Neighbour(NamedTuple):
     bearing_rad: float
     relative_heading_rad: float
     age_s: float
+
+    @property
+    def x_m(self) -> float:
+        """Where it is, ahead."""
+        return self.range_m * cos(self.bearing_rad)
+
+    @property
+    def y_m(self) -> float:
+        """Where it is, to the left."""
+        return self.range_m * sin(self.bearing_rad)
 
 
 @dataclass(frozen=True)
