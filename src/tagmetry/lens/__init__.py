@@ -2,14 +2,8 @@
 
 from tagmetry.lens.choice import Whereabouts, best_setting, next_setting
 from tagmetry.lens.exposure import Levels, better_exposure_s, bracket, marker_levels
-from tagmetry.lens.focus_law import (
-    DioptreLaw,
-    FocusFit,
-    FocusLaw,
-    LogLaw,
-    SplineLaw,
-    fit_focus_laws,
-)
+from tagmetry.lens.focus_fit import FocusFit, fit_focus_laws
+from tagmetry.lens.focus_law import DioptreLaw, FocusLaw, LogLaw, SplineLaw
 from tagmetry.lens.focus_peak import FocusPeak, aperture_m, focus_peak
 from tagmetry.lens.lag import Effect, Lag
 from tagmetry.lens.measured import Measured, measured
