@@ -8,7 +8,7 @@ import os
 import signal
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
@@ -17,6 +17,7 @@ from tagmetry.closing import Closing
 from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.lab.engines.engine import EngineKind
 from tagmetry.lab.engines.worker import Answer, serve
+from tagmetry.lab.environment import environment
 
 _THREAD_VARIABLES = (
     "NUMBA_NUM_THREADS",
@@ -143,19 +144,9 @@ class Child(Closing):
         return f"crashed ({how}){last}"
 
 
-@contextmanager
-def _threads_limited(threads: int) -> Iterator[None]:
+def _threads_limited(threads: int) -> AbstractContextManager[None]:
     """Let processes that start meanwhile use so many threads; libraries read it when imported."""
-    before = {name: os.environ.get(name) for name in _THREAD_VARIABLES}
-    os.environ.update(dict.fromkeys(_THREAD_VARIABLES, str(threads)))
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+    return environment(dict.fromkeys(_THREAD_VARIABLES, str(threads)))
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 
 from tagmetry.errors import InputError, MissingExtraError
+from tagmetry.lab.environment import environment
 
 PATIENCE_S = 10  # with a scheduler that does not answer
 
@@ -37,7 +38,7 @@ def local_workers(jobs: int | None = None) -> Iterator[Workers]:
     """Give processes of this machine, one for each processor unless told otherwise."""
     count = jobs or os.cpu_count() or 1
     with (
-        _environment(_ONE_THREAD),
+        environment(_ONE_THREAD),
         ProcessPoolExecutor(count, get_context("spawn"), _prepare) as executor,
     ):
         yield Workers(executor, count)
@@ -70,21 +71,6 @@ def cluster_workers(address: str) -> Iterator[Workers]:
         if count == 0:
             raise InputError(f"the Dask cluster at {address} has no workers; start `dask worker`")
         yield Workers(client.get_executor(), count)
-
-
-@contextmanager
-def _environment(variables: dict[str, str]) -> Iterator[None]:
-    """Set variables for the processes that are started meanwhile."""
-    before = {name: os.environ.get(name) for name in variables}
-    os.environ.update(variables)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
 
 
 def _prepare() -> None:
