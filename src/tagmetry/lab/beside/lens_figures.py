@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tagmetry.geometry import Array
-from tagmetry.lab.beside.lens_readings import LensReadings
+from tagmetry.lab.beside.lens_readings import LensReadings, rms
 from tagmetry.record.report import ReportFigure
 from tagmetry.record.report.plot import BLUE, GOLD, LIGHT, RED, blank
 
@@ -133,10 +133,6 @@ def _curve(
 
 def _bound(axes: "Axes", readings: LensReadings, against: str, color: str) -> None:
     parts = readings.by(against)
-    bound = np.array([1.96 * _rms(part.column("bound_deg")) for part in parts.values()])
+    bound = np.array([1.96 * rms(part.column("bound_deg")) for part in parts.values()])
     for sign in (1, -1):
         axes.plot(np.array(list(parts)), sign * bound, "--", lw=1, color=color)
-
-
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.nanmean(values**2)))

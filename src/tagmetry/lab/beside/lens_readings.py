@@ -7,7 +7,10 @@ from typing import Any
 import numpy as np
 
 from tagmetry.geometry import Array
+from tagmetry.geometry.arrays import BoolArray
 from tagmetry.lab.lens_row import LensReading
+
+_FLIP_DEG = 1.0  # smaller errors of the turn are none of the other pose
 
 
 @dataclass(frozen=True)
@@ -28,6 +31,12 @@ class LensReadings:
         values = sorted({getattr(row, field) for row in self.rows})
         return {value: self.where(**{field: value}) for value in values}
 
+    @property
+    def conditions(self) -> tuple["LensReadings", ...]:
+        """The readings of each turn and depth, in their order."""
+        turns = self.by("turn_deg").values()
+        return tuple(part for turn in turns for part in turn.by("depth_m").values())
+
     def column(self, field: str) -> Array:
         """Return a field of all readings, shape (n,)."""
         return np.array([getattr(row, field) for row in self.rows], dtype=np.float64)
@@ -42,6 +51,14 @@ class LensReadings:
     def errors_deg(self) -> Array:
         """Errors of the turn, shape (n,)."""
         return np.asarray(self.column("measured_deg") - self.column("turn_deg"))
+
+    @property
+    def flipped(self) -> BoolArray:
+        """Which have the other pose: turned about as far to the other side, shape (n,)."""
+        nearer_other = np.abs(self.errors_deg + 2 * self.column("turn_deg")) < np.abs(
+            self.errors_deg
+        )
+        return np.asarray(nearer_other & (np.abs(self.errors_deg) > _FLIP_DEG))
 
     @property
     def found_share(self) -> float:
@@ -73,3 +90,9 @@ class LensReadings:
 def result_readings(rows: Sequence[LensReading], **settings: Any) -> LensReadings:  # noqa: ANN401
     """Return the results, without the traces, whose fields are so."""
     return LensReadings(tuple(rows)).where(image=-1, **settings)
+
+
+def rms(errors: Array) -> float:
+    """Return the root mean square of those errors (n,) that are known; NaN where none is."""
+    known = errors[np.isfinite(errors)]
+    return float(np.sqrt(np.mean(known**2))) if len(known) else float("nan")

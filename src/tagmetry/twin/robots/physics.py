@@ -1,9 +1,4 @@
-"""Robots that move as their wheels, masses and friction let them: MuJoCo, 4 ms a step.
-
-Each wheel has a speed servo as such robots have on board: proportional to the missing speed, with
-an integral that is held while the motor gives all it can. A motor's torque falls in a straight
-line from its stall torque at rest to nothing at its top speed.
-"""
+"""Robots that move as their wheels, masses and friction let them: MuJoCo, 4 ms a step."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,6 +14,7 @@ from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.twin.robots.design import RobotDesign
 from tagmetry.twin.robots.model import OVERTURNED_HEIGHT_M, TIME_STEP_S, Block, arena_xml
+from tagmetry.twin.robots.servo import SpeedServos
 
 
 @dataclass(frozen=True)
@@ -60,7 +56,7 @@ class RobotsPhysics:
         self._model: Any = mujoco.MjModel.from_xml_string(arena_xml(robots, blocks))
         self._state: Any = mujoco.MjData(self._model)
         self._patches = tuple(patches)
-        self._servo = _Servo([design for design, _ in robots])
+        self._servo = SpeedServos([design for design, _ in robots])
         self._bodies = self._numbers("body", "robot{}", len(robots))
         self._wheel_bodies = self._both_sides("body", len(robots))
         self._wheel_geoms = self._both_sides("geom", len(robots))
@@ -186,43 +182,6 @@ class RobotsPhysics:
     def _numbers(self, kind: str, pattern: str, count: int) -> Array:
         named = getattr(self._model, kind)
         return np.array([named(pattern.format(n)).id for n in range(count)])
-
-
-class _Servo:
-    """The speed servos of all wheels: torque = gain (wanted - speed) + what is held against drag.
-
-    MuJoCo computes the first term with the step's own new speed, which is stable where a wheel
-    slips and only its own small mass resists; so the held torque is given as a speed on top.
-    """
-
-    def __init__(self, designs: Sequence[RobotDesign]) -> None:
-        self._drives = [design.drive for design in designs]
-        self.encoder_steps = np.array([design.encoder_steps for design in designs])
-        self.powered = np.ones((len(designs), 2), dtype=bool)
-        self._stall_Nm = np.array([[design.stall_torque_nm] for design in designs])
-        self._top_radps = np.array([[one.top_wheel_speed_radps] for one in self._drives])
-        self._gain = np.array([[design.servo_gain_nms] for design in designs])
-        self._rate = np.array([[TIME_STEP_S / one.servo_hold_s] for one in designs])
-        self._wanted_radps = np.zeros((len(designs), 2))
-        self._held_radps = np.zeros((len(designs), 2))
-
-    def want(self, robot: int, twist: Twist) -> None:
-        drive = self._drives[robot]
-        self._wanted_radps[robot] = drive.wheel_speeds_radps(drive.within(twist))
-
-    def turn(self, speeds_radps: Array) -> None:
-        self._wanted_radps[:] = np.clip(speeds_radps, -self._top_radps, self._top_radps)
-
-    def asks(self, speeds_radps: Array) -> tuple[Array, Array]:
-        """Return the speeds to ask for and the torques at hand, each of shape (n, 2)."""
-        missing_radps = self._wanted_radps - speeds_radps
-        torques_Nm = self._gain * (missing_radps + self._held_radps)
-        driving = torques_Nm * speeds_radps > 0
-        share = np.where(driving, 1 - np.abs(speeds_radps) / self._top_radps, 1.0)
-        limits_Nm = self._stall_Nm * np.clip(share, 0, 1) * self.powered
-        enough = np.abs(torques_Nm) < limits_Nm
-        self._held_radps += np.where(enough, self._rate * missing_radps, 0.0)
-        return self._wanted_radps + self._held_radps, limits_Nm
 
 
 def _mujoco() -> Any:  # noqa: ANN401 - it has no types
