@@ -2,7 +2,6 @@
 
 import asyncio
 import time
-from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from types import UnionType
 from typing import Literal, get_args, get_origin, get_type_hints
@@ -48,12 +47,6 @@ PICTURE = Picture(
     2.0, 3.0, 16, 12, (LiveMarker(3, ((0.0, 1.0), (2.0, 1.0)), (1.0, 0.5)),), JPEG
 )  # fmt: skip
 RULES = [rule for rule in CONTRACT if rule.sender == "server"]
-
-
-@pytest.fixture(scope="module")
-def live() -> Iterator[Served]:
-    with served() as own:
-        yield own
 
 
 def client(live: Served, *, operator: bool = True) -> LiveClient:

@@ -1,11 +1,10 @@
 """Printing on the page: the same sheets as the command's, bounds, refusals in words."""
 
 import json
-from collections.abc import Iterator
 from urllib.parse import urlencode
 
 import pytest
-from live_server import Served, served
+from live_server import Served
 
 from tagmetry.errors import InputError
 from tagmetry.files.sheets import PageSetup, page_as_svg, pages_as_pdf, parse_paper, sheet_pages
@@ -15,12 +14,6 @@ from tagmetry.markers import family
 
 PAPER = {"paper": "a4", "orientation": "auto", "margin": "10mm", "quiet": "1"}
 SHEET = {"kind": "sheet", "family": "tag36h11", "ids": "0-23", "size": "60mm", **PAPER}
-
-
-@pytest.fixture(scope="module")
-def live() -> Iterator[Served]:
-    with served() as own:
-        yield own
 
 
 def asked(live: Served, path: str, **fields: str) -> tuple[int, dict[str, str], bytes]:

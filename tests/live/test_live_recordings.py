@@ -3,12 +3,11 @@
 import errno
 import json
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from live_server import Served, eventually, served
+from live_server import Served, eventually
 
 from tagmetry.arena import RobotState, WorldState
 from tagmetry.camera import Image
@@ -20,12 +19,6 @@ from tagmetry.record.mcap.pieces import PieceWriter
 
 NAME = "one.mcap"
 MARKER = LiveMarker(3, ((1.0, 2.0), (3.0, 4.0), (5.0, 6.0), (7.0, 8.0)), (9.0, 10.0))
-
-
-@pytest.fixture(scope="module")
-def live() -> Iterator[Served]:
-    with served() as own:
-        yield own
 
 
 @pytest.fixture(scope="module")

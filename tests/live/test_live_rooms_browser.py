@@ -6,27 +6,20 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from arena_page import DESK, PHONE, PICTURES
 from chromium import Chromium, browser_path
 from live_server import Served, served
 
 from tagmetry.live.rooms.every import Furniture
 
 PLACES = 50 if os.environ.get("LIVE_PICTURES") else 6  # of a camera that is carried
-PICTURES = os.environ.get("LIVE_PICTURES")  # a folder; for the docs
 SLOW_S = 240.0  # pictures are rendered, on a busy computer
-PHONE, DESK = (390, 844), (1280, 1150)
 
 
 @pytest.fixture(scope="module")
 def live(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     browser_path()
     with served(furniture=Furniture(cameras=tmp_path_factory.mktemp("page") / "cameras")) as own:
-        yield own
-
-
-@pytest.fixture(scope="module")
-def window(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium]:
-    with Chromium(tmp_path_factory.mktemp("profile"), DESK) as own:
         yield own
 
 
