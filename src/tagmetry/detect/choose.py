@@ -4,12 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numba import njit
 
 from tagmetry.detect.detection import Detection, Rejection
+from tagmetry.detect.places import first_per_place
 from tagmetry.detect.reading.decode import Reading, Readings, has_border, has_outline
 from tagmetry.detect.reading.nearest import Match, Matches, nearest, nearest_of_each
-from tagmetry.detect.reading.sample import side_lengths
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, IntArray
 from tagmetry.markers import MarkerFamily
@@ -18,8 +17,6 @@ _LEAST_CONFIDENCE = 0.3
 _WEAK_CHANCE = 1e-4  # families that random bits pass for more often must be read clearly
 _LEAST_OF_WEAK = 0.85
 _MANY_BITS = 1000  # more than any code has
-_SAME_PLACE = 0.5  # centres closer than this share of a side, and sides alike, are one place
-_ALIKE = 1.6
 _TURNED = np.array([[0, 1, 2, 3], [1, 2, 3, 0], [2, 3, 0, 1], [3, 0, 1, 2]])
 
 
@@ -162,7 +159,7 @@ def best_per_place(candidates: Sequence[Candidate]) -> list[Candidate]:
     best_first = sorted(candidates, key=lambda c: c.rank)
     corners_px = np.array([c.corners_px for c in best_first]).reshape(-1, 4, 2)
     centres_px = corners_px.mean(axis=1)
-    first = np.flatnonzero(first_per_place(centres_px, sides_px(corners_px))).tolist()
+    first = np.flatnonzero(first_per_place(corners_px)).tolist()
     names = [(best_first[i].match.family.name, best_first[i].match.id) for i in first]
     order = sorted(zip(names, centres_px[first].tolist(), first, strict=True))
     return [best_first[i] for _, _, i in order]
@@ -190,37 +187,4 @@ def _first_per_place(squares_px: Sequence[Array]) -> list[int]:
     """Return the indices of those squares (4, 2) that no earlier one stands in the place of."""
     if not squares_px:
         return []
-    corners = np.stack(squares_px)
-    return [
-        int(i) for i in np.flatnonzero(first_per_place(corners.mean(axis=1), sides_px(corners)))
-    ]
-
-
-def one_per_place(corners_px: Array) -> Array:
-    """Return squares (n, 4, 2) without those that an earlier one stands in the place of."""
-    return corners_px[first_per_place(corners_px.mean(axis=1), sides_px(corners_px))]
-
-
-def sides_px(corners_px: Array) -> Array:
-    """Return the mean side of squares (n, 4, 2), shape (n,), pixels."""
-    return np.asarray(side_lengths(corners_px).mean(axis=1))
-
-
-@njit(cache=True, nogil=True)
-def first_per_place(centres_px: Array, sides_px: Array) -> BoolArray:
-    """Say of each square (n,) whether no earlier first one stands in its place.
-
-    Args:
-        centres_px: Shape (n, 2).
-        sides_px: Shape (n,).
-    """
-    first = np.ones(len(sides_px), np.bool_)
-    for i in range(len(sides_px)):
-        x, y, side = centres_px[i, 0], centres_px[i, 1], sides_px[i]
-        for k in range(i):
-            apart2 = (x - centres_px[k, 0]) ** 2 + (y - centres_px[k, 1]) ** 2
-            smaller, larger = min(side, sides_px[k]), max(side, sides_px[k])
-            if first[k] and apart2 < (_SAME_PLACE * smaller) ** 2 and larger < _ALIKE * smaller:
-                first[i] = False
-                break
-    return first
+    return [int(i) for i in np.flatnonzero(first_per_place(np.stack(squares_px)))]

@@ -16,13 +16,13 @@ from tagmetry.detect.choose import (
     Rules,
     best_per_place,
     distinct_rejections,
-    one_per_place,
     with_duplicates_marked,
 )
 from tagmetry.detect.detection import Detection, Findings, Rejection
 from tagmetry.detect.exact import exact_corners
 from tagmetry.detect.expected import expected_picture
 from tagmetry.detect.grey import grey_8bit
+from tagmetry.detect.places import one_per_place
 from tagmetry.detect.reading.decode import read
 from tagmetry.detect.segment import DOUBLE_BELOW_PX, Squares, squares, squares_at_a_glance
 from tagmetry.errors import InputError

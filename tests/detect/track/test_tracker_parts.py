@@ -13,7 +13,6 @@ from tagmetry.detect.reading.nearest import nearest
 from tagmetry.detect.track.greyed import Greyed, boxes_around
 from tagmetry.detect.track.motion import moved, predicted
 from tagmetry.detect.track.nudge import nudged
-from tagmetry.detect.track.shared_look import look_by_threads
 from tagmetry.detect.track.sight import look
 from tagmetry.detect.track.strips import turns
 from tagmetry.detect.track.tracks import Tracks
@@ -141,11 +140,11 @@ def test_markers_look_the_same_to_several_threads() -> None:
     asked = image(shown), family("tag36h11"), ids, corners_px, rng.uniform(0.3, 3, 100), ids < 0
     try:
         cv2.setNumThreads(3)
-        shared = look_by_threads(*asked)
+        shared = look(*asked)
     finally:
         cv2.setNumThreads(threads)
     alone = [look(*asked[:2], *(one[k : k + 1] for one in asked[2:])) for k in range(100)]
-    for name in ("ids", "corners_px", "margins", "expected", "contrast", "correlation", "steps"):
+    for name in ("ids", "corners_px", "margins", "measures", "steps"):
         each = np.concatenate([getattr(one, name) for one in alone])
         np.testing.assert_allclose(getattr(shared, name), each, atol=1e-9)
     assert (shared.correlation > 0.9).mean() > 0.5

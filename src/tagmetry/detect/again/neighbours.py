@@ -3,6 +3,7 @@
 import numpy as np
 from numba import njit
 
+from tagmetry.detect.places import discs
 from tagmetry.geometry.arrays import Array, BoolArray
 
 _NEAR = 0.75, 1.6  # from centre to centre by the marker's side; closer is within it
@@ -14,7 +15,7 @@ _TOUCHING = 0.15  # of a marker's side, from corner to corner
 @njit(cache=True, nogil=True)
 def unread(markers_px: Array, pictures_px: Array) -> int:
     """Return how many pictures (k, 4, 2) stand where no marker (m, 4, 2) does."""
-    markers, pictures, count = _discs(markers_px), _discs(pictures_px), 0
+    markers, pictures, count = discs(markers_px), discs(pictures_px), 0
     for picture in pictures:
         lone = True
         for marker in markers:
@@ -32,7 +33,7 @@ def crowded(markers_px: Array, pictures_px: Array, squares_px: Array) -> BoolArr
         pictures_px: Squares with something printed in a border, shape (k, 4, 2).
         squares_px: All squares, shape (n, 4, 2).
     """
-    markers, pictures, squares = _discs(markers_px), _discs(pictures_px), _discs(squares_px)
+    markers, pictures, squares = discs(markers_px), discs(pictures_px), discs(squares_px)
     crowded = np.zeros(len(markers), np.bool_)
     for i in range(len(markers)):
         for picture in pictures:
@@ -70,17 +71,3 @@ def _between_corners(a: Array, b: Array) -> float:
         for k in range(4):
             least2 = min(least2, (a[i, 0] - b[k, 0]) ** 2 + (a[i, 1] - b[k, 1]) ** 2)
     return float(np.sqrt(least2))
-
-
-@njit(cache=True, nogil=True)
-def _discs(squares_px: Array) -> Array:
-    """Return each square's middle and mean side, shape (n, 3), pixels."""
-    discs = np.zeros((len(squares_px), 3))
-    for i in range(len(squares_px)):
-        for k in range(4):
-            x, y = squares_px[i, k, 0], squares_px[i, k, 1]
-            dx, dy = x - squares_px[i, k - 1, 0], y - squares_px[i, k - 1, 1]
-            discs[i, 0] += x / 4
-            discs[i, 1] += y / 4
-            discs[i, 2] += np.sqrt(dx**2 + dy**2) / 4
-    return discs

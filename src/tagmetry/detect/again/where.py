@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tagmetry.detect.again.neighbours import crowded, unread
-from tagmetry.detect.reading.sample import side_lengths
+from tagmetry.detect.places import side_lengths
 from tagmetry.geometry import Array
 
 _UNREAD = 2  # as many other pictures for each marker are far more

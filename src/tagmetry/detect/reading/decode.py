@@ -12,8 +12,8 @@ from functools import cache
 
 import numpy as np
 
-from tagmetry.detect.reading.sample import cell_means
-from tagmetry.detect.reading.spots import BORDER_ERRORS, Spots, read_each
+from tagmetry.detect.reading.sample import cell_means, taps_of
+from tagmetry.detect.reading.spots import BORDER_ERRORS, LEAST_OUTLINE, Spots, read_each
 from tagmetry.geometry import Array, square_to_quad
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 from tagmetry.markers import Layout
@@ -21,7 +21,6 @@ from tagmetry.markers.packed import Words, packed
 
 _OUTSIDE_CELLS = 0.35  # how far outside the border white is looked for
 _LEAST_WHITE = 0.1  # share of the bits; pictures have some white in them
-_LEAST_OUTLINE = 0.3  # share of the contrast by which it must
 _TAP_CELLS = 0.17  # how far from a cell's centre its four taps are
 
 
@@ -38,7 +37,7 @@ class Reading:
         border_margin: Mean clearness of the frame's cells.
         sharp_outline: How clearly the image steps across the sides, 0 to 1; 1 when all of the
             contrast lies within a pixel of them.
-        outline: The same within a good part of a cell.
+        outline: The same within a good part of a cell, where it is not clear within a pixel.
     """
 
     margins: Array
@@ -82,7 +81,7 @@ class Readings:
     @property
     def outlined(self) -> BoolArray:
         """Whether `has_outline` says so of each, shape (n,)."""
-        return np.asarray(self.measures[:, 3:].max(axis=1) >= _LEAST_OUTLINE)
+        return np.asarray(self.measures[:, 3:].max(axis=1) >= LEAST_OUTLINE)
 
     @property
     def pictured(self) -> BoolArray:
@@ -127,7 +126,7 @@ def has_border(reading: Reading) -> bool:
 
 def has_outline(reading: Reading) -> bool:
     """Say whether the image steps across the sides; it does not inside a wide border."""
-    return max(reading.outline, reading.sharp_outline) >= _LEAST_OUTLINE
+    return max(reading.outline, reading.sharp_outline) >= LEAST_OUTLINE
 
 
 @cache
@@ -135,14 +134,14 @@ def _spots(layout: Layout) -> Spots:
     """Return what the kernel looks at."""
     black, white = _places(layout)
     cells = np.concatenate([_frame(layout), layout.bit_centres])
+    terms = _plane_terms(cells)
     return Spots(
-        _TAP_CELLS / layout.side_cells,
-        np.ascontiguousarray(black),
-        np.ascontiguousarray(white),
-        np.ascontiguousarray(layout.bit_centres, dtype=np.float64),
-        np.asarray(np.linalg.pinv(_plane_terms(black)), dtype=np.float64),
-        np.asarray(np.linalg.pinv(_plane_terms(white)), dtype=np.float64),
-        _plane_terms(cells),
+        taps_of(np.concatenate([black, white]), _TAP_CELLS / layout.side_cells),
+        taps_of(layout.bit_centres, _TAP_CELLS / layout.side_cells),
+        _to_plane(black),
+        _to_plane(white),
+        terms,
+        terms.mean(axis=0),
         _beside(layout),
         len(_frame(layout)),
         float(layout.side_cells),
@@ -188,3 +187,8 @@ def _beside(layout: Layout) -> IntArray:
 def _plane_terms(at: Array) -> Array:
     """Return 1, u and v from the middle of each place (n, 2), shape (n, 3)."""
     return np.column_stack([np.ones(len(at)), at - 0.5])
+
+
+def _to_plane(at: Array) -> Array:
+    """Return what takes values at places (n, 2) to the plane through them, shape (n, 3)."""
+    return np.ascontiguousarray(np.linalg.pinv(_plane_terms(at)).T, dtype=np.float64)

@@ -1,33 +1,112 @@
-"""Grey values between pixels, and how an image steps across the sides of squares."""
+"""Grey values between pixels, and how an image steps across the sides of squares.
+
+Many places are looked up at once: which pixels they are between, what these are, what lies between
+them. Of these three loops the first and the last compute several places at a time; together they
+would not.
+"""
+
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 
-_ALONG = np.linspace(0.05, 0.95, 10)
+Narrow = NDArray[np.float32]
+_ALONG = np.linspace(0.05, 0.95, 10)  # places along each side where steps are looked at
+STEPS = 4 * len(_ALONG)
 _ONE = np.uint64(1)
+_NEARLY_ONE = 1.001  # a place is between a pixel and the next: before the last
+_f32 = np.float32
 
 
-def steps_across(grey: GreyPixels, corners_px: Array, reach_px: Array) -> Array:
-    """Return by how much the image is brighter just outside each side than just inside.
+class Room(NamedTuple):
+    """Places to look up, and what is there.
+
+    Attributes:
+        x: Columns of the places; once looked up, what of them is past a pixel, shape (n,).
+        y: Rows, likewise, shape (n,).
+        pixel: That pixel's number, row by row, shape (n,).
+        around: It, and those to the right, below, and right below, shape (4, n).
+        values: Grey values, shape (n,).
+    """
+
+    x: Narrow
+    y: Narrow
+    pixel: "NDArray[np.int32]"
+    around: GreyPixels
+    values: Narrow
+
+
+@njit(cache=True, nogil=True)
+def new_room(count: int) -> Room:
+    """Return room for so many places."""
+    return Room(
+        np.empty(count, np.float32),
+        np.empty(count, np.float32),
+        np.empty(count, np.int32),
+        np.empty((4, count), np.uint8),
+        np.empty(count, np.float32),
+    )
+
+
+@njit(cache=True, nogil=True)
+def look_up(grey: GreyPixels, room: Room, count: int) -> None:
+    """Write the grey values at the first places of a room; outside, the image's edge is repeated.
 
     Args:
         grey: 8-bit image.
-        corners_px: Squares, clockwise, shape (n, 4, 2).
-        reach_px: How far outside and inside each square's sides is looked at, shape (n,).
-
-    Returns:
-        Grey values at ten places along each side, shape (n, 40).
+        room: Its x and y are used up.
+        count: How many places.
     """
-    return _steps(grey, np.ascontiguousarray(corners_px), reach_px)
+    _find_pixels(grey, room, count)
+    _take_pixels(grey, room, count)
+    _mix_pixels(room, count)
 
 
-def side_lengths(corners_px: Array) -> Array:
-    """Return the lengths of the sides of squares (n, 4, 2), shape (n, 4), pixels."""
-    sides = corners_px[:, [1, 2, 3, 0]] - corners_px
-    return np.hypot(sides[..., 0], sides[..., 1])
+@njit(cache=True, nogil=True)
+def _find_pixels(grey: GreyPixels, room: Room, count: int) -> None:
+    last_x, last_y = _f32(grey.shape[1] - _NEARLY_ONE), _f32(grey.shape[0] - _NEARLY_ONE)
+    width = np.int32(grey.shape[1])
+    for k in range(count):
+        x = min(max(_f32(0), room.x[k]), last_x)  # in this order, what is no number becomes 0
+        y = min(max(_f32(0), room.y[k]), last_y)
+        column, row = np.int32(x), np.int32(y)
+        room.x[k], room.y[k] = x - _f32(column), y - _f32(row)
+        room.pixel[k] = row * width + column
+
+
+@njit(cache=True, nogil=True)
+def _take_pixels(grey: GreyPixels, room: Room, count: int) -> None:
+    pixels, down, around = grey.ravel(), np.uint64(grey.shape[1]), room.around
+    for k in range(count):
+        own = np.uint64(room.pixel[k])
+        around[0, k], around[1, k] = pixels[own], pixels[own + _ONE]
+        around[2, k], around[3, k] = pixels[own + down], pixels[own + down + _ONE]
+
+
+@njit(cache=True, nogil=True)
+def _mix_pixels(room: Room, count: int) -> None:
+    around = room.around
+    for k in range(count):
+        own, right = _f32(around[0, k]), _f32(around[1, k])
+        below, right_below = _f32(around[2, k]), _f32(around[3, k])
+        high = own + room.x[k] * (right - own)
+        low = below + room.x[k] * (right_below - below)
+        room.values[k] = high + room.y[k] * (low - high)
+
+
+def taps_of(at: Array, reach: float) -> Narrow:
+    """Return the four places around each point (k, 2) of a square, shape (2, 4 k).
+
+    Args:
+        at: Points of the unit square.
+        reach: How far beside and above each point they are, sides of the square.
+    """
+    corners = reach * np.array([[-1, -1], [1, -1], [-1, 1], [1, 1]])
+    return np.ascontiguousarray((corners[:, None] + at).reshape(-1, 2).T, dtype=np.float32)
 
 
 def cell_means(grey: GreyPixels, H: Array, at: Array, reach: float) -> Array:
@@ -39,66 +118,78 @@ def cell_means(grey: GreyPixels, H: Array, at: Array, reach: float) -> Array:
         at: Points of the unit square, shape (k, 2).
         reach: How far beside and above each point it is looked at, sides of the square.
     """
-    return _cell_means(grey, np.ascontiguousarray(H), np.ascontiguousarray(at), reach)
+    return _cell_means(grey, np.ascontiguousarray(H), taps_of(at, reach))
 
 
 @njit(cache=True, nogil=True)
-def _cell_means(grey: GreyPixels, H: Array, at: Array, reach: float) -> Array:
-    means = np.empty((len(H), len(at)))
+def _cell_means(grey: GreyPixels, H: Array, taps: Narrow) -> Array:
+    room, means = new_room(taps.shape[1]), np.empty((len(H), taps.shape[1] // 4))
     for i in range(len(H)):
-        means[i] = cell_means_of(grey, H[i], at, reach)
+        write_means(grey, H[i], taps, room, means[i])
     return means
+
+
+@njit(cache=True, nogil=True)
+def write_means(grey: GreyPixels, H: Array, taps: Narrow, room: Room, means: Array) -> None:
+    """Write the means of four places each of one square.
+
+    Args:
+        grey: 8-bit image.
+        H: From the unit square to pixels, shape (3, 3).
+        taps: From `taps_of`, shape (2, 4 k).
+        room: For 4 k places at least.
+        means: For the result, shape (k,).
+    """
+    _place(H, taps, room)
+    look_up(grey, room, taps.shape[1])
+    count, values = taps.shape[1] // 4, room.values
+    for k in range(count):
+        above, below = values[k] + values[k + count], values[k + 2 * count] + values[k + 3 * count]
+        means[k] = _f32(0.25) * (above + below)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")  # on the horizon 1 / 0 is no place
-def cell_means_of(grey: GreyPixels, H: Array, at: Array, reach: float) -> Array:
-    """Return what `cell_means` does of one square, shape (k,)."""
-    means = np.zeros(len(at))
-    for k in range(len(at)):
-        for tap in range(4):
-            u = at[k, 0] + (reach if tap % 2 else -reach)
-            v = at[k, 1] + (reach if tap >= 2 else -reach)
-            w = 1 / (H[2, 0] * u + H[2, 1] * v + H[2, 2])
-            x = (H[0, 0] * u + H[0, 1] * v + H[0, 2]) * w
-            y = (H[1, 0] * u + H[1, 1] * v + H[1, 2]) * w
-            means[k] += bilinear(grey, x, y) / 4
-    return means
+def _place(H: Array, taps: Narrow, room: Room) -> None:
+    """Write the pixels of points of the unit square."""
+    x_u, x_v, x_0 = _f32(H[0, 0]), _f32(H[0, 1]), _f32(H[0, 2])
+    y_u, y_v, y_0 = _f32(H[1, 0]), _f32(H[1, 1]), _f32(H[1, 2])
+    w_u, w_v, w_0 = _f32(H[2, 0]), _f32(H[2, 1]), _f32(H[2, 2])
+    for k in range(taps.shape[1]):
+        u, v = taps[0, k], taps[1, k]
+        w = _f32(1) / (w_u * u + w_v * v + w_0)
+        room.x[k], room.y[k] = (x_u * u + x_v * v + x_0) * w, (y_u * u + y_v * v + y_0) * w
 
 
 @njit(cache=True, nogil=True)
-def _steps(grey: GreyPixels, corners_px: Array, reach_px: Array) -> Array:
-    steps = np.empty((len(corners_px), 4 * len(_ALONG)))
-    for i in range(len(corners_px)):
-        steps[i] = steps_of(grey, corners_px[i], reach_px[i])
-    return steps
+def write_steps(
+    grey: GreyPixels, square_px: Array, reach_px: float, room: Room, steps: Array
+) -> None:
+    """Write by how much the image is brighter just outside each side of a square than just inside.
 
-
-@njit(cache=True, nogil=True)
-def steps_of(grey: GreyPixels, corners_px: Array, reach_px: float) -> Array:
-    """Return what `steps_across` does of one square, shape (40,)."""
-    count = len(_ALONG)
-    steps = np.empty(4 * count)
+    Args:
+        grey: 8-bit image.
+        square_px: Corners, clockwise, shape (4, 2).
+        reach_px: How far outside and inside it is looked at.
+        room: For 80 places at least.
+        steps: For the result, ten places along each side, shape (40,).
+    """
     for side in range(4):
-        x, y = corners_px[side]
-        along_x, along_y = corners_px[(side + 1) % 4] - corners_px[side]
-        reach = reach_px / max(np.sqrt(along_x**2 + along_y**2), 1e-9)
-        out_x, out_y = reach * along_y, -reach * along_x
-        for k in range(count):
-            on_x, on_y = x + _ALONG[k] * along_x, y + _ALONG[k] * along_y
-            outside = bilinear(grey, on_x + out_x, on_y + out_y)
-            inside = bilinear(grey, on_x - out_x, on_y - out_y)
-            steps[side * count + k] = outside - inside
-    return steps
+        _place_beside(square_px, side, reach_px, room)
+    look_up(grey, room, 2 * STEPS)
+    for k in range(STEPS):
+        steps[k] = room.values[k] - room.values[STEPS + k]
 
 
 @njit(cache=True, nogil=True)
-def bilinear(grey: GreyPixels, x: float, y: float) -> float:
-    """Return the grey value between pixels; the image's edge is repeated outside."""
-    x = min(max(0.0, x), grey.shape[1] - 1.001)  # in this order, what is no number becomes 0
-    y = min(max(0.0, y), grey.shape[0] - 1.001)
-    column, row = np.uint64(x), np.uint64(y)
-    right, down = x - float(column), y - float(row)
-    above, below = grey[row], grey[row + _ONE]
-    high = above[column] + right * (float(above[column + _ONE]) - above[column])
-    low = below[column] + right * (float(below[column + _ONE]) - below[column])
-    return float(high + down * (low - high))
+def _place_beside(square_px: Array, side: int, reach_px: float, room: Room) -> None:
+    """Write the places outside a side, and those inside."""
+    count, end = len(_ALONG), (side + 1) % 4
+    start_x, start_y = square_px[side, 0], square_px[side, 1]
+    along_x, along_y = square_px[end, 0] - start_x, square_px[end, 1] - start_y
+    reach = reach_px / max(np.sqrt(along_x**2 + along_y**2), 1e-9)
+    out_x, out_y = reach * along_y, -reach * along_x
+    for k in range(count):
+        x, y = start_x + _ALONG[k] * along_x, start_y + _ALONG[k] * along_y
+        outside, inside = side * count + k, STEPS + side * count + k
+        room.x[outside], room.y[outside] = x + out_x, y + out_y
+        room.x[inside], room.y[inside] = x - out_x, y - out_y

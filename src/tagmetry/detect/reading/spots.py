@@ -8,11 +8,19 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tagmetry.detect.reading.sample import cell_means_of, steps_of
+from tagmetry.detect.reading.sample import (
+    STEPS,
+    Narrow,
+    Room,
+    new_room,
+    write_means,
+    write_steps,
+)
 from tagmetry.geometry.arrays import Array, GreyPixels, IntArray
 
 LEAST_CONTRAST = 8.0  # grey values between black and white
 BORDER_ERRORS = 0.2  # share of frame cells that may read wrong
+LEAST_OUTLINE = 0.3  # share of the contrast by which the image must step across the sides
 _EDGE_CELLS = 0.3  # how far inside and outside a side the image must differ
 _SHARPEN = 0.25  # share of the difference to each neighbour that is added
 
@@ -21,13 +29,13 @@ class Spots(NamedTuple):
     """Where a layout's cells are read, and what their values are weighed with.
 
     Attributes:
-        reach: How far beside and above a cell's centre its four taps are, sides of the square.
-        black: Centres of cells that are black on all markers, shape (b, 2), units of the side.
-        white: Places that are white on all markers, shape (w, 2).
-        bits: Centres of the cells with a bit, shape (k, 2).
-        black_plane: Takes the values at black ones to a plane through them, shape (3, b).
-        white_plane: The same of the white ones, shape (3, w).
+        frame_taps: Four places around the centres of cells that are black on all markers, b, then
+            around places that are white on all, w; units of the side, shape (2, 4 (b + w)).
+        bit_taps: The same around the centres of the cells with a bit, shape (2, 4 k).
+        black_plane: Takes the values at black ones to a plane through them, shape (b, 3).
+        white_plane: The same of the white ones, shape (w, 3).
         plane_terms: Takes a plane to its values at frame and bits, shape (f + k, 3).
+        mean_terms: Takes it to the mean of these, shape (3,).
         beside: Which cells of frame and bits touch each bit's sides, shape (k, 4); the bit itself
             where that is none of them.
         frame: How many of black and white are cells of the marker, f.
@@ -35,17 +43,34 @@ class Spots(NamedTuple):
         step_up: 1 where it is brighter outside of the sides, else -1.
     """
 
-    reach: float
-    black: Array
-    white: Array
-    bits: Array
+    frame_taps: Narrow
+    bit_taps: Narrow
     black_plane: Array
     white_plane: Array
     plane_terms: Array
+    mean_terms: Array
     beside: IntArray
     frame: int
     side_cells: float
     step_up: float
+
+
+class _Desk(NamedTuple):
+    """What is worked on for one square.
+
+    Attributes:
+        room: For places to look up.
+        seen: Values of frame, shape (b + w,).
+        cells: How clearly frame and bits are white, shape (f + k,).
+        middle: What is midway between black and white at frame and bits, shape (f + k,).
+        steps: Across the sides, shape (40,).
+    """
+
+    room: Room
+    seen: Array
+    cells: Array
+    middle: Array
+    steps: Array
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -63,74 +88,104 @@ def read_each(
         measures: For the result: border share, contrast, border margin, sharp outline, outline,
             shape (n, 5).
     """
-    cells, middle = np.empty(len(spots.plane_terms)), np.empty(len(spots.plane_terms))
+    desk = _new_desk(spots)
     for i in range(len(H)):
-        measures[i, 1] = _contrast(grey, H[i], spots, cells, middle)
+        write_means(grey, H[i], spots.frame_taps, desk.room, desk.seen)
+        measures[i, 1] = _level(desk, spots)
         half = measures[i, 1] / 2
-        measures[i, 0], measures[i, 2] = _border(cells, middle, half, spots)
+        measures[i, 0], measures[i, 2] = _border(desk, half, spots)
         if measures[i, 0] >= 1 - BORDER_ERRORS:
-            _write_bits(grey, H[i], spots, cells, middle, half, margins[i])
-            _write_outline(grey, corners_px[i], spots, half, measures[i, 3:])
+            write_means(grey, H[i], spots.bit_taps, desk.room, desk.cells[spots.frame :])
+            _write_bits(desk, half, spots, margins[i])
+            _write_outline(grey, corners_px[i], desk, half, spots, measures[i, 3:])
 
 
 @njit(cache=True, nogil=True)
-def _contrast(grey: GreyPixels, H: Array, spots: Spots, cells: Array, middle: Array) -> float:
-    """Write the frame's values and what is midway everywhere; return white minus black or NaN."""
-    black = cell_means_of(grey, H, spots.black, spots.reach)
-    white = cell_means_of(grey, H, spots.white, spots.reach)
-    dark, bright = spots.black_plane @ black, spots.white_plane @ white
-    middle[:] = spots.plane_terms @ ((dark + bright) / 2)
-    contrast = (spots.plane_terms @ (bright - dark)).mean()
-    for k in range(spots.frame):
-        cells[k] = black[k] if k < black.size else white[k - black.size]
+def _new_desk(spots: Spots) -> _Desk:
+    seen, cells = len(spots.black_plane) + len(spots.white_plane), len(spots.plane_terms)
+    places = max(spots.frame_taps.shape[1], spots.bit_taps.shape[1], 2 * STEPS)
+    return _Desk(
+        new_room(places), np.empty(seen), np.empty(cells), np.empty(cells), np.empty(STEPS)
+    )
+
+
+@njit(cache=True, nogil=True)
+def _level(desk: _Desk, spots: Spots) -> float:
+    """Write what is midway between black and white; return white minus black, NaN if too little."""
+    seen, middle, terms, mean = desk.seen, desk.middle, spots.plane_terms, spots.mean_terms
+    black = _plane(seen, spots.black_plane)
+    white = _plane(seen[len(spots.black_plane) :], spots.white_plane)
+    a, b, c = (black[0] + white[0]) / 2, (black[1] + white[1]) / 2, (black[2] + white[2]) / 2
+    for k in range(middle.size):
+        middle[k] = a * terms[k, 0] + b * terms[k, 1] + c * terms[k, 2]
+    contrast = 0.0
+    for t in range(3):
+        contrast += (white[t] - black[t]) * mean[t]
     return contrast if abs(contrast) >= LEAST_CONTRAST else np.nan
 
 
 @njit(cache=True, nogil=True)
-def _border(cells: Array, middle: Array, half: float, spots: Spots) -> tuple[float, float]:
+def _plane(values: Array, to_plane: Array) -> tuple[float, float, float]:
+    """Return the plane through the first values."""
+    a, b, c = 0.0, 0.0, 0.0
+    for k in range(len(to_plane)):
+        a += to_plane[k, 0] * values[k]
+        b += to_plane[k, 1] * values[k]
+        c += to_plane[k, 2] * values[k]
+    return a, b, c
+
+
+@njit(cache=True, nogil=True)
+def _border(desk: _Desk, half: float, spots: Spots) -> tuple[float, float]:
     """Turn the frame's values to margins; return the share of right ones and their mean."""
-    right, clear = 0, 0.0
+    right, clear, black = 0, 0.0, len(spots.black_plane)
     for k in range(spots.frame):
-        cells[k] = (cells[k] - middle[k]) / half
-        as_printed = -cells[k] if k < len(spots.black) else cells[k]
+        desk.cells[k] = (desk.seen[k] - desk.middle[k]) / half
+        as_printed = -desk.cells[k] if k < black else desk.cells[k]
         right += as_printed > 0
         clear += min(max(as_printed, -1.0), 1.0)
     return right / spots.frame, clear / spots.frame
 
 
 @njit(cache=True, nogil=True)
-def _write_bits(
-    grey: GreyPixels,
-    H: Array,
-    spots: Spots,
-    cells: Array,
-    middle: Array,
-    half: float,
-    margins: Array,
-) -> None:
+def _write_bits(desk: _Desk, half: float, spots: Spots, margins: Array) -> None:
     """Write how clearly each bit reads as white, sharpened against the cells beside it."""
-    values = cell_means_of(grey, H, spots.bits, spots.reach)
-    for k in range(values.size):
-        cells[spots.frame + k] = (values[k] - middle[spots.frame + k]) / half
-    for k in range(values.size):
-        own = cells[spots.frame + k]
+    cells, first = desk.cells, spots.frame
+    for k in range(margins.size):
+        cells[first + k] = (cells[first + k] - desk.middle[first + k]) / half
+    for k in range(margins.size):
+        own = cells[first + k]
         margins[k] = own
-        for near in spots.beside[k]:
-            margins[k] += _SHARPEN * (own - cells[near])
+        for side in range(4):
+            margins[k] += _SHARPEN * (own - cells[spots.beside[k, side]])
 
 
 @njit(cache=True, nogil=True)
 def _write_outline(
-    grey: GreyPixels, square_px: Array, spots: Spots, half: float, clearness: Array
+    grey: GreyPixels, square_px: Array, desk: _Desk, half: float, spots: Spots, outlines: Array
 ) -> None:
-    """Write how clearly the image steps across a square's sides, within a pixel and a cell."""
+    """Write how clearly the image steps across a square's sides, within a pixel and a cell.
+
+    Where it does within a pixel, the cell is not looked at.
+    """
     around_px = 0.0
     for side in range(4):
-        along = square_px[side] - square_px[side - 1]
-        around_px += np.sqrt(along[0] ** 2 + along[1] ** 2)
-    reaches_px = (1.0, _EDGE_CELLS * around_px / 4 / spots.side_cells)
-    for k in range(2):
-        total, steps = 0.0, steps_of(grey, square_px, reaches_px[k])
-        for step in steps:
-            total += min(max(spots.step_up * step / (2 * half), 0.0), 1.0)
-        clearness[k] = total / steps.size
+        x = square_px[side, 0] - square_px[side - 1, 0]
+        y = square_px[side, 1] - square_px[side - 1, 1]
+        around_px += np.sqrt(x**2 + y**2)
+    outlines[0] = outlines[1] = _clearness(grey, square_px, 1.0, desk, half * spots.step_up)
+    if outlines[0] < LEAST_OUTLINE:
+        reach_px = _EDGE_CELLS * around_px / 4 / spots.side_cells
+        outlines[1] = _clearness(grey, square_px, reach_px, desk, half * spots.step_up)
+
+
+@njit(cache=True, nogil=True)
+def _clearness(
+    grey: GreyPixels, square_px: Array, reach_px: float, desk: _Desk, half: float
+) -> float:
+    """Return the mean step across the sides as a share of all the contrast, 0 to 1 each."""
+    write_steps(grey, square_px, reach_px, desk.room, desk.steps)
+    share, total = 0.5 / half, 0.0
+    for step in desk.steps:
+        total += min(max(share * step, 0.0), 1.0)
+    return total / desk.steps.size

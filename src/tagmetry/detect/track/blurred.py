@@ -45,7 +45,7 @@ def recognised(sights: Sights, rows: BoolArray) -> BoolArray:
 
 def _is_none_other(sights: Sights, row: int) -> bool:
     """Say whether a marker is the only one of its family that fits what is seen."""
-    seen, own = _normal(sights.margins[row]), sights.expected[row]
+    seen, own = _normal(sights.margins[row]), sights.expected(row)
     mixings = _mixings(sights.family.layout)
     fits = _normal(mixings @ own) @ seen
     best = int(fits.argmax())

@@ -5,20 +5,20 @@ quiet zone beside a black border. The values there are modelled as
 
     value = a + b x + c y + d * expected
 
-with `expected` +1 for white and -1 for black: uneven light is a plane, d half the contrast. With
-the plane's three functions made orthonormal, d is the product of the values with one fixed vector.
+with `expected` +1 for white and -1 for black: uneven light is a plane, d half the contrast.
 """
 
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache
 
 import numpy as np
 
+from tagmetry.detect.reading.sample import Narrow, taps_of
 from tagmetry.geometry import Array
 from tagmetry.markers import Layout, MarkerFamily
 
 _OUTSIDE_CELLS = 0.5
-_REMEMBERED = 4096  # markers
+_TAP_CELLS = 0.17  # how far from a cell's centre its four taps are
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,13 +29,15 @@ class Places:
         at: Centres in units of the square's side, shape (k, 2); the bits stand first.
         plain: What the places after the bits show: +1 is white, shape (k - bits,).
         quiet: How many of them, at the end, lie in the quiet zone.
-        light: Orthonormal functions 1, x, y of the places, shape (k, 3).
+        light: Orthonormal functions that 1, x, y of the places are made of, shape (k, 3).
+        taps: Where values are taken for each, shape (2, 4 k).
     """
 
     at: Array
     plain: Array
     quiet: int
     light: Array
+    taps: Narrow
 
 
 @cache
@@ -46,19 +48,14 @@ def places(layout: Layout) -> Places:
     at = np.concatenate([layout.bit_centres, frame, quiet])
     plain = np.repeat([-1.0, 1.0], [len(black), len(white) + len(quiet)])
     light, _ = np.linalg.qr(np.column_stack([np.ones(len(at)), at - 0.5]))
-    return Places(at, plain, len(quiet), light)
+    taps = taps_of(at, _TAP_CELLS / layout.side_cells)
+    return Places(at, plain, len(quiet), np.ascontiguousarray(light), taps)
 
 
-@lru_cache(_REMEMBERED)
-def expected(family: MarkerFamily, marker_id: int) -> tuple[Array, Array]:
-    """Return what a marker's places show, +1 is white, and the vector that gives its contrast.
-
-    Both have shape (k,); the product of the second with the values is half the contrast.
-    """
-    seen = places(family.layout)
-    white = np.concatenate([np.where(family.codes[marker_id], 1.0, -1.0), seen.plain])
-    alone = white - seen.light @ (seen.light.T @ white)
-    return white, alone / (alone @ alone)
+def expected(family: MarkerFamily, marker_id: int) -> Array:
+    """Return what a marker's places show, +1 is white, shape (k,)."""
+    bits = np.where(family.codes[marker_id], 1.0, -1.0)
+    return np.concatenate([bits, places(family.layout).plain])
 
 
 def _quiet_zone(layout: Layout) -> Array:

@@ -5,13 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from tagmetry.detect.choose import Rules
-from tagmetry.detect.reading.sample import side_lengths
+from tagmetry.detect.places import side_lengths
 from tagmetry.detect.track.blurred import recognised
 from tagmetry.detect.track.greyed import Greyed, boxes_around
 from tagmetry.detect.track.known import Known
 from tagmetry.detect.track.seen import Seen
-from tagmetry.detect.track.shared_look import look_by_threads
-from tagmetry.detect.track.sight import nudge_reach_px
+from tagmetry.detect.track.sight import look, nudge_reach_px
 from tagmetry.geometry.arrays import IntArray
 from tagmetry.markers import MarkerFamily
 
@@ -65,9 +64,7 @@ def _of_one_family(
     pad_px += nudge_reach_px(corners_px, deviation_px, cells)
     grey = image.look_at(boxes_around(corners_px, pad_px, image.size_px))
     is_inverted = known.tracks.is_inverted[rows]
-    sights = look_by_threads(
-        grey, family, known.tracks.ids[rows], corners_px, deviation_px, is_inverted
-    )
+    sights = look(grey, family, known.tracks.ids[rows], corners_px, deviation_px, is_inverted)
     forgiven = family.forgiven_bits if rules.forgive_bits is None else rules.forgive_bits
     there = sights.reads_as_expected(forgiven)
     if not there.all():

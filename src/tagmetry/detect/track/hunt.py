@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.detect.reading.sample import side_lengths
+from tagmetry.detect.places import side_lengths
 from tagmetry.detect.track.greyed import boxes_around
 from tagmetry.detect.track.known import Known
 from tagmetry.detect.track.strips import Turn

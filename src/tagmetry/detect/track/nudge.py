@@ -5,14 +5,16 @@ outside is; a line of median slope and offset through the eight is the side, wha
 them met. So predictions may be off by a cell, and are good to a fraction of a pixel afterwards.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 
-from tagmetry.detect.reading.sample import bilinear
+from tagmetry.detect.reading.sample import Narrow, Room, look_up, new_room
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 
-_SCANS = 8
+_SCANS = 8  # of each side
 _HALF = _SCANS // 2
 _AT = (np.arange(_SCANS) + 0.5) / _SCANS - 0.5  # along a side, from its middle
 _REACH = 8  # steps of a profile to each side
@@ -21,9 +23,32 @@ _COUNT = 2 * _REACH + 1
 _READ = _COUNT + 2 * _APART
 _SHARE = 0.6  # of the steepest step: its middle is midway between where it falls below
 _LEAST_SINE = 0.1
+PLACES = 4 * _SCANS * _READ  # that are looked up of a square
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+class Bench(NamedTuple):
+    """What is worked on for one square.
+
+    Attributes:
+        room: For `PLACES` places at least.
+        rises: Of a profile.
+        shifts: Of the profiles of a side.
+        lines: Of the sides, (point, direction), shape (4, 4).
+    """
+
+    room: Room
+    rises: Array
+    shifts: Array
+    lines: Array
+
+
+@njit(cache=True, nogil=True)
+def new_bench(room: Room) -> Bench:
+    """Return a bench with a room."""
+    return Bench(room, np.empty(_COUNT), np.empty(_SCANS), np.empty((4, 4)))
+
+
+@njit(cache=True, nogil=True)
 def nudged(grey: GreyPixels, corners_px: Array, reach_px: Array, sign: Array) -> Array:
     """Return squares moved onto the edges within reach, shape (n, 4, 2).
 
@@ -33,52 +58,74 @@ def nudged(grey: GreyPixels, corners_px: Array, reach_px: Array, sign: Array) ->
         reach_px: How far from there edges are looked for, shape (n,).
         sign: +1 for dark squares on bright ground, -1 for bright ones, shape (n,).
     """
-    moved = np.empty_like(corners_px)
-    lines = np.empty((4, 4))
+    moved, bench = np.empty_like(corners_px), new_bench(new_room(PLACES))
     for i in range(len(corners_px)):
-        for side in range(4):
-            a, b = corners_px[i, side], corners_px[i, (side + 1) % 4]
-            _find_side(grey, a, b, reach_px[i] / _REACH, sign[i], lines[side])
-        _meet(lines, corners_px[i], moved[i])
+        nudge(grey, corners_px[i], reach_px[i], sign[i], bench, moved[i])
     return moved
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _find_side(
-    grey: GreyPixels, a: Array, b: Array, step_px: float, sign: float, line: Array
+@njit(cache=True, nogil=True)
+def nudge(
+    grey: GreyPixels, square_px: Array, reach_px: float, sign: float, bench: Bench, moved: Array
 ) -> None:
-    """Write (point, direction) of the line on which the side from a to b is seen."""
-    along_x, along_y = b[0] - a[0], b[1] - a[1]
+    """Write one square, (4, 2), moved onto the edges within reach; arguments as of `nudged`."""
+    step_px = reach_px / _REACH
+    for side in range(4):
+        _place_profiles(square_px, side, step_px, bench.room)
+    look_up(grey, bench.room, PLACES)
+    for side in range(4):
+        _find_side(square_px, side, step_px, sign, bench)
+    _meet(bench.lines, square_px, moved)
+
+
+@njit(cache=True, nogil=True)
+def _place_profiles(square_px: Array, side: int, step_px: float, room: Room) -> None:
+    """Write the places of the profiles across a side, from the inside out."""
+    start_x, start_y, along_x, along_y = _side(square_px, side)
+    out_x, out_y = _outward(along_x, along_y, step_px)
+    for scan in range(_SCANS):
+        first = (side * _SCANS + scan) * _READ
+        x, y = start_x + (0.5 + _AT[scan]) * along_x, start_y + (0.5 + _AT[scan]) * along_y
+        for k in range(_READ):
+            steps = k - (_REACH + _APART)
+            room.x[first + k], room.y[first + k] = x + steps * out_x, y + steps * out_y
+
+
+@njit(cache=True, nogil=True)
+def _side(square_px: Array, side: int) -> tuple[float, float, float, float]:
+    """Return where a side starts, x and y, and what is added to come to its end."""
+    x, y, end = square_px[side, 0], square_px[side, 1], (side + 1) % 4
+    return x, y, square_px[end, 0] - x, square_px[end, 1] - y
+
+
+@njit(cache=True, nogil=True)
+def _outward(along_x: float, along_y: float, step_px: float) -> tuple[float, float]:
+    """Return a step across a side."""
     length = max(np.hypot(along_x, along_y), 1e-9)
-    across = (step_px * along_y / length, -step_px * along_x / length)  # outward
-    shifts, values, rises = np.empty(_SCANS), np.empty(_READ), np.empty(_COUNT)
-    for k in range(_SCANS):
-        x, y = a[0] + (0.5 + _AT[k]) * along_x, a[1] + (0.5 + _AT[k]) * along_y
-        shifts[k] = _steepest(grey, (x, y), across, sign, values, rises)
-    first, last = _ends(shifts)
-    line[0], line[1] = a[0] + first * across[0], a[1] + first * across[1]
-    line[2], line[3] = b[0] + last * across[0] - line[0], b[1] + last * across[1] - line[1]
+    return step_px * along_y / length, -step_px * along_x / length
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _steepest(
-    grey: GreyPixels,
-    place: tuple[float, float],
-    step: tuple[float, float],
-    sign: float,
-    values: Array,
-    rises: Array,
-) -> float:
-    """Return where a profile through a place rises most, in steps from the place.
+def _find_side(square_px: Array, side: int, step_px: float, sign: float, bench: Bench) -> None:
+    """Write (point, direction) of the line on which a side is seen."""
+    x, y, along_x, along_y = _side(square_px, side)
+    out_x, out_y = _outward(along_x, along_y, step_px)
+    for scan in range(_SCANS):
+        first = (side * _SCANS + scan) * _READ
+        bench.shifts[scan] = _steepest(bench.room.values, first, sign, bench.rises)
+    start, end = _ends(bench.shifts)
+    turn = end - start
+    bench.lines[side, 0], bench.lines[side, 1] = x + start * out_x, y + start * out_y
+    bench.lines[side, 2], bench.lines[side, 3] = along_x + turn * out_x, along_y + turn * out_y
 
-    Its values and rises are written.
-    """
-    x, y = place
-    best, far = 0, _REACH + _APART
-    for k in range(_READ):
-        values[k] = bilinear(grey, x + (k - far) * step[0], y + (k - far) * step[1])
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _steepest(values: Narrow, first: int, sign: float, rises: Array) -> float:
+    """Return where a profile rises most, in steps from its middle; its rises are written."""
+    best = 0
     for k in range(_COUNT):
-        rises[k] = sign * (values[k + 2 * _APART] - values[k])
+        rises[k] = sign * (values[first + k + 2 * _APART] - values[first + k])
+    for k in range(1, _COUNT):
         best = k if rises[k] > rises[best] else best
     return 0.5 * (_falls(rises, best, -1) + _falls(rises, best, 1)) - _REACH
 

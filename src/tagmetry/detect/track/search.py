@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 
 from tagmetry.detect.choose import Candidate, Rules, best_per_place
+from tagmetry.detect.places import in_places
 from tagmetry.detect.reading.decode import read
 from tagmetry.detect.segment import Squares, squares, squares_in_turn
 from tagmetry.detect.track.greyed import Greyed
@@ -15,8 +16,6 @@ from tagmetry.geometry.arrays import BoolArray, GreyPixels
 from tagmetry.markers import Layout, MarkerFamily
 
 _LEAST_PART_PX = 8
-_SAME_PLACE = 0.5  # centres closer than this share of a side, and sides alike, are one place
-_ALIKE = 1.6
 
 
 class Search:
@@ -67,22 +66,6 @@ class Search:
                 corners_px[here], is_bright[here], readings, families
             )
         return candidates
-
-
-def in_places(corners_px: Array, known_px: Array) -> BoolArray:
-    """Say which squares (n, 4, 2) stand in the place of one of others (m, 4, 2), shape (n,)."""
-    if not (len(corners_px) and len(known_px)):
-        return np.zeros(len(corners_px), dtype=bool)
-    sides_px, known_sides_px = _side_px(corners_px)[:, None], _side_px(known_px)
-    apart_px = np.linalg.norm(corners_px.mean(axis=1)[:, None] - known_px.mean(axis=1), axis=2)
-    smaller = np.minimum(sides_px, known_sides_px)
-    alike = np.maximum(sides_px, known_sides_px) < _ALIKE * smaller
-    return np.asarray((alike & (apart_px < _SAME_PLACE * smaller)).any(axis=1))
-
-
-def _side_px(corners_px: Array) -> Array:
-    sides = np.roll(corners_px, -1, axis=1) - corners_px
-    return np.asarray(np.linalg.norm(sides, axis=2).mean(axis=1))
 
 
 def _scaled(part: GreyPixels, scale: float) -> GreyPixels:

@@ -7,7 +7,7 @@ from typing import Self
 import numpy as np
 
 from tagmetry.detect.choose import Candidate
-from tagmetry.detect.track.search import in_places
+from tagmetry.detect.places import in_places
 from tagmetry.detect.track.sight import Sights
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, IntArray
