@@ -37,14 +37,34 @@ def test_recall_is_that_of_the_best_peer() -> None:
 
 
 def test_corners_are_held_against_the_bound_and_the_best_peer() -> None:
+    case = "exact-60-20dB-gamma"
     (bound, peer) = reached(
-        row("gamma-60", "tagmetry", corner_rms_px=0.011, bound_px=0.005),
-        row("gamma-60", "a", corner_rms_px=0.2),
-        row("gamma-60", "b", corner_rms_px=0.05),
+        row(case, "tagmetry", corner_rms_px=0.011, bound_px=0.005),
+        row(case, "a", corner_rms_px=0.2),
+        row(case, "b", corner_rms_px=0.05),
     )
     assert bound.wanted == pytest.approx(0.0105)
-    assert not bound.holds
-    assert peer.measured == pytest.approx(0.22)
+    assert bound.verdict == "falls short"
+    assert (peer.measured, peer.bound) == (pytest.approx(0.22), pytest.approx(0.1))
+    assert peer.verdict == "falls short"
+
+
+def test_what_the_bound_forbids_is_said() -> None:
+    case = "exact-30-20dB-gamma"
+    (bound, peer) = reached(
+        row(case, "tagmetry", corner_rms_px=0.021, bound_px=0.02),
+        row(case, "a", corner_rms_px=0.08),
+    )
+    assert bound.verdict == "holds"
+    assert peer.verdict == "beyond the bound"
+
+
+def test_linear_cameras_are_not_held_against_peers() -> None:
+    (bound,) = reached(
+        row("exact-30-20dB", "tagmetry", corner_rms_px=0.021, bound_px=0.02),
+        row("exact-30-20dB", "a", corner_rms_px=0.01),
+    )
+    assert bound.name == "exact-30-20dB: corners, px"
 
 
 def test_the_tracker_is_held_against_the_detector_and_the_clock() -> None:
@@ -57,18 +77,39 @@ def test_the_tracker_is_held_against_the_detector_and_the_clock() -> None:
     assert (rate.measured, rate.holds) == (50.0, False)
 
 
-def test_stated_covariances_are_judged_over_all_markers() -> None:
-    (goal,) = reached(
-        row("side-30", "tagmetry", distance2=8.0, found=30),
-        row("gamma-60", "tagmetry", distance2=12.0, found=10),
+def test_stated_covariances_are_judged_case_by_case() -> None:
+    goals_of_all = reached(
+        row("exact-30-20dB", "tagmetry", distance2=7.1),
+        row("exact-60-40dB-gamma", "tagmetry", distance2=9.2),
     )
-    assert goal.measured == pytest.approx(1.0)
-    assert goal.holds
+    assert [goal.measured for goal in goals_of_all] == pytest.approx([0.9, 1.2])
+    assert [goal.holds for goal in goals_of_all] == [True, False]
 
 
 def test_a_false_positive_is_one_too_many() -> None:
     assert [goal.holds for goal in reached(row("none", "tagmetry"))] == [True]
     assert [goal.holds for goal in reached(row("none", "tagmetry", false_positives=1))] == [False]
+
+
+def test_small_families_are_held_against_a_third_of_opencvs() -> None:
+    def goal(ours: int, theirs: int) -> Goal:
+        case = "free-4x4_1000"
+        (one,) = reached(
+            row(case, "tagmetry", false_positives=ours),
+            row(case, "opencv-none", false_positives=theirs),
+            row(case, "opencv-subpix", false_positives=99),
+        )
+        return one
+
+    assert goal(1, 4).holds
+    assert not goal(2, 4).holds
+    assert reached(row("free-4x4_1000", "tagmetry")) == []
+
+
+def test_hostile_images_are_held_against_the_clock() -> None:
+    (false, slowest) = reached(row("hostile", "tagmetry", p99_ms=251.0))
+    assert false.holds
+    assert not slowest.holds
 
 
 def test_nothing_measured_promises_nothing() -> None:

@@ -10,8 +10,10 @@ from tagmetry.detect.photometric.bound import corner_bound_px
 from tagmetry.errors import InputError
 from tagmetry.lab.bench.bound import bound_px
 from tagmetry.lab.bench.case import Case
+from tagmetry.lab.bench.hostile import Hostile
 from tagmetry.lab.bench.render import rendered
-from tagmetry.lab.bench.setup import FULL_HD, SETUPS, Setup
+from tagmetry.lab.bench.setup import FULL_HD, Setup
+from tagmetry.lab.bench.setups import EXACT, SETUPS
 from tagmetry.lab.bench.works import fitting, renderings, steps
 from tagmetry.markers import family
 
@@ -61,12 +63,42 @@ def test_levels_are_those_of_the_camera() -> None:
 
 
 def test_a_film_goes_round_without_a_jump() -> None:
-    film = rendered(replace(SMALL, cluttered=False, images=6), "tag36h11")
+    film = rendered(replace(SMALL, cluttered=False, images=6, is_film=True), "tag36h11")
     middles = np.array([truth.corners_px.mean(axis=1) for truth in film.truths])
     steps_px = np.linalg.norm(np.roll(middles, -1, axis=0) - middles, axis=2)
     assert film.moves
     assert steps_px.min() > 3
     assert steps_px.max() < 10
+
+
+def test_several_images_are_several_scenes() -> None:
+    case = rendered(replace(SMALL, cluttered=False, images=2), "tag36h11")
+    assert case.once
+    assert not case.moves
+    assert [truth.ids.tolist() for truth in case.truths] == [[0, 1, 2, 3], [4, 5, 6, 7]]
+    first, second = (truth.corners_px for truth in case.truths)
+    np.testing.assert_allclose(first.mean(axis=1), second.mean(axis=1), atol=3)
+    assert np.abs(first - second).max() > 3
+
+
+def test_corners_are_judged_on_all_sizes_noises_and_responses() -> None:
+    """Decibels are those of the contrast, in the camera's own grey values."""
+    assert len({(one.side_px, one.exponent, round(one.noise, 3)) for one in EXACT}) == 12
+    for setup in EXACT:
+        case = rendered(replace(setup, count=0, images=1, cluttered=False), "tag36h11")
+        contrast = case.seen.white - case.seen.black
+        decibels = 20 * np.log10(contrast / case.images[0].std())
+        assert f"-{setup.side_px:g}-" in setup.name
+        assert decibels == pytest.approx(20 if "-20dB" in setup.name else 40, abs=0.3)
+        assert (setup.exponent == 2.2) == setup.name.endswith("-gamma")
+
+
+def test_hostile_images_show_no_marker() -> None:
+    case = Hostile("tag36h11").case()
+    assert {image.shape for image in case.images} == {(1080, 1920)}
+    assert {image.dtype for image in case.images} == {np.dtype(np.uint8)}
+    assert [len(truth.ids) for truth in case.truths] == [0] * len(case.images)
+    assert Detector(["tag36h11"]).detect(case.images[3]) == ()
 
 
 def test_the_bound_is_that_of_the_markers() -> None:
@@ -94,7 +126,7 @@ def test_extents_grow() -> None:
         {w.name for w in renderings(extent, "tag36h11")} for extent in ("quick", "default", "full")
     ]
     assert names[0] < names[1] < names[2]
-    assert len(names[2]) == len(SETUPS)
+    assert names[2] == {setup.name for setup in SETUPS} | {"hostile"}
 
 
 def test_cases_are_chosen_by_pattern() -> None:

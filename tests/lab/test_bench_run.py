@@ -27,6 +27,8 @@ from tagmetry.lab.bench import (
 from tagmetry.lab.bench.case import Case, Truth
 from tagmetry.lab.bench.costs import costs
 from tagmetry.lab.bench.machine import this_machine
+from tagmetry.lab.bench.real import FREE_OF
+from tagmetry.lab.bench.team import Team
 from tagmetry.lab.engines import EngineKind, Patience
 
 LIGHT = np.full((40, 40), 200, np.uint8)
@@ -85,6 +87,29 @@ def test_who_hangs_is_ended_and_the_others_go_on() -> None:
     *_, last = run([Ready("night", (NIGHT,))], kinds, replace(PACE, patience=Patience(0.3, 1.0)))
     assert last.of("night", "bad", 1).failure == "no answer in 1 s"
     assert last.of("night", "good", 1).rounds == 5
+
+
+@dataclass(frozen=True, eq=False)
+class Once(Ready):
+    """A case whose images are looked at once."""
+
+    def case(self) -> Case:
+        return replace(super().case(), once=True)
+
+
+def test_where_time_is_not_asked_for_images_are_looked_at_once() -> None:
+    *_, last = run([Once("many", (LIGHT,) * 2)], [kind(fake_engines.Good)])
+    assert (last.rows[0].rounds, last.rows[0].expected) == (2, 2)
+
+
+def test_engines_of_another_family_end() -> None:
+    works = [Ready("one", (LIGHT,)), Ready("other", (LIGHT,), family="4x4_50")]
+    good = replace(kind(fake_engines.Good), families=None)
+    with Team([good], 1, PACE.patience) as team:
+        first, second = (team.members(work.case())[0] for work in works)
+        assert second.show((LIGHT,)) is None
+        with pytest.raises(ValueError, match="closed"):
+            first.show((LIGHT,))
 
 
 def test_an_engine_rests_when_it_was_measured_enough() -> None:
@@ -221,6 +246,9 @@ def test_refuses_a_data_folder_without_sets(tmp_path: Path) -> None:
 def test_pictures_without_markers_have_a_truth(tmp_path: Path) -> None:
     (tmp_path / "marker_free").mkdir()
     cv2.imwrite(str(tmp_path / "marker_free" / "a.jpg"), LIGHT)
-    (only,) = real_sets(tmp_path)
-    assert only.name == "real-marker_free"
-    assert [len(truth.ids) for truth in only.case().truths] == [0]
+    sets = real_sets(tmp_path)
+    assert [one.name for one in sets] == [f"free-{name}" for name in FREE_OF]
+    case = sets[-1].case()
+    assert case.once
+    assert case.family == FREE_OF[-1]
+    assert [len(truth.ids) for truth in case.truths] == [0]

@@ -56,7 +56,7 @@ def test_nothing_found_has_no_corners(kind: EngineKind) -> None:
 
 
 def test_the_tracker_follows_a_film() -> None:
-    setup = Setup("film", 4, 60.0, (320, 240), cluttered=False, images=6)
+    setup = Setup("film", 4, 60.0, (320, 240), cluttered=False, images=6, is_film=True)
     film = rendered(setup, "tag36h11")
     (kind,) = [kind for kind in installed() if kind.tracks]
     tracker = kind.make("tag36h11", 1)

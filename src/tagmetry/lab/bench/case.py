@@ -25,6 +25,11 @@ class Truth:
     Ts_camera_marker: RigidTransform | None = None
 
 
+def nothing(images: int) -> tuple[Truth, ...]:
+    """Return the truth of so many images without any marker."""
+    return (Truth(np.empty(0, np.int64), np.empty((0, 4, 2))),) * images
+
+
 @dataclass(frozen=True, eq=False)
 class Seen:
     """How rendered markers are seen: what the Cramer-Rao bound depends on.
@@ -78,6 +83,7 @@ class Case:
         is_standard: It differs from the standard case in size and number only, so that the time of
             an image and of a marker can be told apart.
         moves: The images are a film that begins again without a jump.
+        once: Each image is looked at once: it is not time that is asked for.
     """
 
     name: str
@@ -87,3 +93,4 @@ class Case:
     seen: Seen | None = None
     is_standard: bool = False
     moves: bool = False
+    once: bool = False

@@ -10,7 +10,8 @@ from tagmetry.lab.bench.axes import both_logarithmic, dress, plain_numbers, x_lo
 from tagmetry.lab.bench.curves import BOUND, Abscissa, draw_bound, draw_curve, draw_curves
 from tagmetry.lab.bench.results import Results
 from tagmetry.lab.bench.row import Row
-from tagmetry.lab.bench.setup import FULL_HD, SETUPS, Setup
+from tagmetry.lab.bench.setup import FULL_HD, Setup
+from tagmetry.lab.bench.setups import SETUPS
 from tagmetry.lab.engines import OURS, TRACKER
 from tagmetry.lab.engines.palette import COLOURS
 

@@ -9,11 +9,17 @@ import numpy as np
 from tagmetry.detect.grey import grey_8bit
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import GreyPixels
-from tagmetry.lab.bench.case import Case, Truth
+from tagmetry.lab.bench.case import Case, nothing
 from tagmetry.markers import family as family_of
 from tagmetry.sources import read_picture
 from tagmetry.sources.paths import expand
 
+STRONG_FAMILIES = ("tag36h11", "aruco_mip_36h12")
+SMALL_FAMILIES = (
+    *("4x4_50", "4x4_100", "4x4_250", "4x4_1000"),
+    *("5x5_50", "5x5_1000", "aruco_original", "tag16h5"),
+)
+FREE_OF = STRONG_FAMILIES + SMALL_FAMILIES  # what is looked for in pictures without markers
 MOST_PICTURES = 24  # of a set or a pattern, evenly taken, so that a run ends
 
 
@@ -38,9 +44,8 @@ class Pictures:
     def case(self) -> Case:
         """Return the case with its images."""
         images = tuple(_grey(path) for path in self.paths)
-        nothing = Truth(np.empty(0, np.int64), np.empty((0, 4, 2)))
-        truths = (nothing,) * len(images) if self.shows_none else None
-        return Case(self.name, self.family, images, truths)
+        truths = nothing(len(images)) if self.shows_none else None
+        return Case(self.name, self.family, images, truths, once=self.shows_none)
 
 
 def real_sets(folder: Path) -> list[Pictures]:
@@ -55,7 +60,7 @@ def real_sets(folder: Path) -> list[Pictures]:
         _set(folder, "house_tour/mapping_feb_2014", "tag36h11"),
         _set(folder, "planar_map", "aruco_original"),
         _set(folder, "grid_board", "6x6_250"),
-        _set(folder, "marker_free", "tag36h11", shows_none=True),
+        *(_marker_free(folder, family) for family in FREE_OF),
     ]
     there = [one for one in sets if one.paths]
     if not there:
@@ -77,9 +82,15 @@ def own_pictures(patterns: Sequence[str], family: str) -> Pictures:
     return Pictures(name, family, some)
 
 
-def _set(folder: Path, name: str, family: str, *, shows_none: bool = False) -> Pictures:
+def _set(folder: Path, name: str, family: str) -> Pictures:
     found = sorted(p for p in (folder / name).glob("*") if p.suffix.lower() in {".jpg", ".png"})
-    return Pictures(f"real-{name.partition('/')[0]}", family, _some(found), shows_none)
+    return Pictures(f"real-{name.partition('/')[0]}", family, _some(found))
+
+
+def _marker_free(folder: Path, family: str) -> Pictures:
+    """Return all pictures without markers as a case of one family."""
+    paths = tuple(sorted((folder / "marker_free").glob("*.jpg")))
+    return Pictures(f"free-{family}", family, paths, shows_none=True)
 
 
 def _some(paths: Sequence[Path]) -> tuple[Path, ...]:

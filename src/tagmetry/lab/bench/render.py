@@ -5,6 +5,7 @@ film each swings round its place, so that its end joins its beginning.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -13,7 +14,7 @@ from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.arrays import FloatImage
 from tagmetry.geometry.transforms import Rotation
-from tagmetry.lab.bench.case import Case, Truth
+from tagmetry.lab.bench.case import Case, Truth, nothing
 from tagmetry.lab.bench.clutter import clutter_light
 from tagmetry.lab.bench.setup import SIZE_M, Setup
 from tagmetry.lab.bench.stage import Stage, drawn_motion_px, photographed, seen_on
@@ -44,7 +45,8 @@ def rendered(setup: Setup, family: str, seed: int = 0) -> Case:
         tuple(_truth(markers, camera) for markers in films),
         seen_on(stage),
         setup.is_standard,
-        setup.images > 1,
+        setup.is_film,
+        setup.images > 1 and not setup.is_film,
     )
 
 
@@ -64,7 +66,7 @@ def _behind(setup: Setup, seed: int) -> FloatImage:
 
 def _truth(markers: Sequence[MountedMarker], camera: Camera) -> Truth:
     if not markers:
-        return Truth(np.empty(0, np.int64), np.empty((0, 4, 2)))
+        return nothing(1)[0]
     return Truth(
         np.array([marker.id for marker in markers]),
         np.stack([camera.project(marker.corners_m) for marker in markers]),
@@ -76,11 +78,14 @@ def _films(
     setup: Setup, camera: Camera, family: str, rng: np.random.Generator
 ) -> list[list[MountedMarker]]:
     """Return the markers of every image, at their poses in the camera."""
-    ids = np.arange(setup.count) % len(family_of(family))
     depth_m = SIZE_M * setup.size_px[0] / setup.side_px
     paths = [_poses(setup, camera, n, depth_m, rng) for n in range(setup.count)]
+    others = 0 if setup.is_film else setup.count
     return [
-        [MountedMarker(family, int(ids[n]), SIZE_M, path[k]) for n, path in enumerate(paths)]
+        [
+            MountedMarker(family, (k * others + n) % len(family_of(family)), SIZE_M, path[k])
+            for n, path in enumerate(paths)
+        ]
         for k in range(setup.images)
     ]
 
@@ -88,8 +93,20 @@ def _films(
 def _poses(
     setup: Setup, camera: Camera, n: int, depth_m: float, rng: np.random.Generator
 ) -> list[RigidTransform]:
-    """Return T_camera_marker of a marker in every image."""
+    """Return T_camera_marker of the nth marker in every image."""
     at_px = _place_px(setup, n)
+    if setup.is_film:
+        return _round(setup, camera, at_px, depth_m, rng)
+    still = replace(setup, images=1)
+    return [
+        pose for _ in range(setup.images) for pose in _round(still, camera, at_px, depth_m, rng)
+    ]
+
+
+def _round(
+    setup: Setup, camera: Camera, at_px: Array, depth_m: float, rng: np.random.Generator
+) -> list[RigidTransform]:
+    """Return T_camera_marker of a marker in every image of a film."""
     turn_deg, tilt_deg, lean_deg = _angles_deg(setup, rng)
     phase_rad = rng.uniform(0, 2 * np.pi)
     poses = []
@@ -127,7 +144,7 @@ def _R_camera_sight(setup: Setup, ray: Array) -> Rotation:  # noqa: N802 (frames
 def _swing(setup: Setup, phase_rad: float) -> Array:
     """Return where on its round a marker is; one of a single image stands still."""
     round_ = np.array([np.cos(phase_rad), np.sin(phase_rad)])
-    return round_ if setup.images > 1 else np.zeros(2)
+    return round_ if setup.is_film else np.zeros(2)
 
 
 def _place_px(setup: Setup, n: int) -> Array:

@@ -68,14 +68,22 @@ def raced(case: Case, children: Sequence[Child], threads: int, pace: Pace) -> li
     courses = {child: Course(child.kind, failure=child.show(case.images)) for child in children}
     for child, course in courses.items():
         _warm(child, course, case)
-    least = max(pace.least_rounds, 0 if case.moves else len(case.images))
-    for number in range(max(pace.most_rounds, least)):
+    least, most = _rounds(case, pace)
+    for number in range(most):
         running = [child for child in children if _goes_on(courses[child], least, pace.limit_s)]
         if not running:
             break
         for child in running:
             _round(child, courses[child], number % len(case.images), clock_of(threads))
     return list(courses.values())
+
+
+def _rounds(case: Case, pace: Pace) -> tuple[int, int]:
+    """Return how many rounds there are at least and at most."""
+    if case.once:
+        return len(case.images), len(case.images)
+    least = max(pace.least_rounds, 0 if case.moves else len(case.images))
+    return least, max(pace.most_rounds, least)
 
 
 def clock_of(threads: int) -> Clock:

@@ -9,7 +9,7 @@ from tagmetry.lab.bench.results import Results
 from tagmetry.lab.bench.rounds import Pace, raced
 from tagmetry.lab.bench.row import Row
 from tagmetry.lab.bench.score import scored
-from tagmetry.lab.bench.setup import SETUPS
+from tagmetry.lab.bench.setups import SETUPS
 from tagmetry.lab.bench.team import Team
 from tagmetry.lab.bench.works import Step
 from tagmetry.lab.engines import EngineKind

@@ -1,4 +1,4 @@
-"""The rendered cases: which there are, before they are rendered."""
+"""What a rendered case is, before it is rendered."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -7,6 +7,7 @@ Extent = Literal["quick", "default", "full"]
 EXTENTS: tuple[Extent, ...] = ("quick", "default", "full")
 FULL_HD = (1920, 1080)
 SIZE_M = 0.1  # of the markers
+_MIDDLE = 0.47  # of their light, of full scale
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,8 @@ class Setup:
         noise: Standard deviation of the noise, grey values.
         exponent: Of the camera's response; 1 is linear.
         blur_px: Standard deviation of the point spread.
-        images: How many; more than one is a film of moving markers.
+        images: How many, each with other markers that lie anew.
+        is_film: They follow each other instead, and the same markers move.
         extent: From which extent of the bench on it is measured.
         all_threads: It is measured with all threads as well.
         tilt_deg: How far every marker leans, to any side; None for up to 35 about two axes.
@@ -41,6 +43,7 @@ class Setup:
     exponent: float = 1.0
     blur_px: float = 0.6
     images: int = 1
+    is_film: bool = False
     extent: Extent = "full"
     all_threads: bool = False
     tilt_deg: float | None = None
@@ -54,35 +57,13 @@ class Setup:
         usual = (self.cluttered, self.noise, self.exponent, self.blur_px, self.images)
         return usual == (True, 2.0, 1.0, 0.6, 1)
 
+    @property
+    def levels(self) -> tuple[float, float]:
+        """Light of ink and of paper, of full scale."""
+        return _MIDDLE - self.contrast / 2, _MIDDLE + self.contrast / 2
 
-SETUPS = (
-    Setup("count-24", extent="quick", all_threads=True),
-    Setup("noise-8", noise=8.0, extent="default"),
-    Setup("gamma-60", exponent=2.2, extent="default"),
-    Setup("film-24", images=12, extent="quick", all_threads=True),
-    Setup("none", count=0, extent="default"),
-    Setup("plain", cluttered=False, extent="default"),
-    Setup("side-12", side_px=12.0, extent="full"),
-    Setup("side-16", side_px=16.0, extent="default"),
-    Setup("side-20", side_px=20.0, extent="default"),
-    Setup("side-30", side_px=30.0, extent="default"),
-    Setup("side-100", side_px=100.0, extent="default"),
-    Setup("side-200", count=12, side_px=200.0),
-    Setup("count-1", count=1, extent="default"),
-    Setup("count-6", count=6),
-    Setup("count-96", count=96, side_px=36.0, extent="default"),
-    Setup("count-360", count=360, side_px=36.0, extent="default", all_threads=True),
-    Setup("noise-0", noise=0.0),
-    Setup("noise-16", noise=16.0, extent="default"),
-    Setup("noise-8-30", side_px=30.0, noise=8.0),
-    Setup("noise-8-100", side_px=100.0, noise=8.0),
-    Setup("gamma-30", side_px=30.0, exponent=2.2, extent="default"),
-    Setup("gamma-100", side_px=100.0, exponent=2.2),
-    Setup("blur-0.3", blur_px=0.3),
-    Setup("blur-1.5", blur_px=1.5, extent="default"),
-    Setup("size-480p", count=6, size_px=(640, 480), extent="default"),
-    Setup("size-720p", count=6, size_px=(1280, 720)),
-    Setup("size-4k", size_px=(3840, 2160), all_threads=True),
-    Setup("film-96", count=96, side_px=36.0, images=12),
-    Setup("film-360", count=360, side_px=36.0, images=12, all_threads=True),
-)
+    @property
+    def levels_grey(self) -> tuple[float, float]:
+        """Grey values of ink and of paper."""
+        black, white = (255.0 * level ** (1 / self.exponent) for level in self.levels)
+        return black, white

@@ -19,7 +19,6 @@ from tagmetry.twin import Optics, Scene, Shot, Shutter, exposed
 from tagmetry.twin.optics import Gamma, Sensor, developed
 from tagmetry.twin.scenes import Path, Steady, Still, marker_thing
 
-_MIDDLE = 0.47  # radiance, of full scale
 _READ_NOISE_E = 3.0
 _ROUNDING_GREY = 1 / np.sqrt(12)
 _HERE = Still(RigidTransform.identity())
@@ -55,7 +54,7 @@ def photographed(
 ) -> GreyPixels:
     """Return an image: the markers' own light, and of what is behind them what they leave free."""
     setup = stage.setup
-    black, white = _levels(setup)
+    black, white = setup.levels
     path = _path(setup, stage.motion_px)
     things = (marker_thing(markers, path, paper=white, ink=black),) if markers else ()
     shutter = Shutter(1.0 if path.moves else 0.0)
@@ -74,16 +73,11 @@ def _path(setup: Setup, motion_px: tuple[float, float]) -> Path:
     return Steady(RigidTransform.identity(), velocity_m_s, np.zeros(3))
 
 
-def _levels(setup: Setup) -> tuple[float, float]:
-    """Return the light of ink and of paper."""
-    return _MIDDLE - setup.contrast / 2, _MIDDLE + setup.contrast / 2
-
-
 def _sensor(setup: Setup) -> Sensor:
     response = Gamma(setup.exponent)
     if setup.white_electrons is None:
         return Sensor(response=response, noise_grey=setup.noise)
-    full_well_e = setup.white_electrons / _levels(setup)[1]
+    full_well_e = setup.white_electrons / setup.levels[1]
     return Sensor(
         full_well_e=full_well_e,
         read_noise_e=_READ_NOISE_E,
@@ -95,7 +89,7 @@ def _sensor(setup: Setup) -> Sensor:
 def seen_on(stage: Stage) -> Seen:
     """Return how the markers are seen."""
     setup = stage.setup
-    black, white = (255.0 * level ** (1 / setup.exponent) for level in _levels(setup))
+    black, white = setup.levels_grey
     grey_per_electron = white / setup.white_electrons if setup.white_electrons else 0.0
     parts = (setup.noise, _ROUNDING_GREY, _READ_NOISE_E * grey_per_electron)
     return Seen(

@@ -7,7 +7,8 @@ from rich.table import Table
 
 from tagmetry.lab.bench.compare import Comparison
 from tagmetry.lab.bench.costs import Cost
-from tagmetry.lab.bench.goals import Goal, goals
+from tagmetry.lab.bench.goal import Goal
+from tagmetry.lab.bench.goals import goals
 from tagmetry.lab.bench.results import Results
 from tagmetry.lab.bench.row import Row
 
@@ -130,12 +131,12 @@ def _costs_table(all_costs: Sequence[Cost]) -> Table:
 def _goals_table(all_goals: Sequence[Goal]) -> Table:
     table = Table(title="what is to hold", title_justify="left", box=None)
     table.add_column("goal")
-    for name in ("measured", "wanted", ""):
+    for name in ("measured", "wanted", "bound", ""):
         table.add_column(name, justify="right")
     for goal in all_goals:
         limit = f"{'>=' if goal.at_least else '<='} {number(goal.wanted)}"
-        verdict = "holds" if goal.holds else "falls short"
-        table.add_row(goal.name, number(goal.measured), limit, verdict)
+        bound = "" if goal.bound is None else number(goal.bound)
+        table.add_row(goal.name, number(goal.measured), limit, bound, goal.verdict)
     return table
 
 

@@ -28,7 +28,12 @@ class Team(Closing):
                 self._alive(kind, family)
 
     def members(self, case: Case) -> list[Child]:
-        """Return the engines that know the family; trackers only where something moves."""
+        """Return the engines that know the family; trackers only where something moves.
+
+        Those of other families end: there are many families, and little memory.
+        """
+        for key in [key for key in self._children if key[1] != case.family]:
+            self._children.pop(key).close()
         return [
             self._alive(kind, case.family)
             for kind in self._kinds

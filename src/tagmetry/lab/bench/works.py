@@ -7,8 +7,10 @@ from typing import Protocol
 
 from tagmetry.errors import InputError
 from tagmetry.lab.bench.case import Case
+from tagmetry.lab.bench.hostile import Hostile
 from tagmetry.lab.bench.render import rendered
-from tagmetry.lab.bench.setup import EXTENTS, SETUPS, Extent, Setup
+from tagmetry.lab.bench.setup import EXTENTS, Extent, Setup
+from tagmetry.lab.bench.setups import SETUPS
 from tagmetry.markers import family as family_of
 
 
@@ -66,7 +68,8 @@ def renderings(extent: Extent, family: str) -> list[Work]:
     """
     name = family_of(family).name
     wanted = EXTENTS[: EXTENTS.index(extent) + 1]
-    return [Rendering(setup, name) for setup in SETUPS if setup.extent in wanted]
+    works: list[Work] = [Rendering(setup, name) for setup in SETUPS if setup.extent in wanted]
+    return [*works, Hostile(name)] if extent == "full" else works
 
 
 def fitting(works: Sequence[Work], patterns: Sequence[str]) -> list[Work]:
