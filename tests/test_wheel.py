@@ -63,7 +63,7 @@ def test_says_what_it_needs(wheel: ZipFile) -> None:
     assert metadata["Requires-Python"] == [">=3.11"]
     assert metadata["License-Expression"] == ["Apache-2.0 AND BSD-2-Clause"]
     extras = {"all", "arena", "bench", "cluster", "live", "parquet", "print", "report"}
-    extras |= {"robots", "video"}
+    extras |= {"robots", "video", "zenoh"}
     assert set(metadata["Provides-Extra"]) == extras
 
 
