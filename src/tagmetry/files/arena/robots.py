@@ -39,11 +39,12 @@ def robot_of(one: RobotTable, table: ArenaTable) -> Robot:
             family.checked_id(one.marker.id),
             size_m,
             mount,
-            _key(one.key),
+            key_of(one.key),
         )
 
 
-def _key(text: str | None) -> bytes | None:
+def key_of(text: str | None) -> bytes | None:
+    """Return the 32 bytes of a key; None where there is none."""
     if text is None:
         return None
     if not _KEY.fullmatch(text):

@@ -16,6 +16,7 @@ from tagmetry.arena import (
 )
 from tagmetry.arena.place import Place, turned_rad
 from tagmetry.errors import InputError
+from tagmetry.files.arena.computers import ZenohSetup, zenoh_of
 from tagmetry.files.arena.floor import FloorMarker, floor_of, frame_of
 from tagmetry.files.arena.places import starts_of
 from tagmetry.files.arena.robots import robot_of
@@ -52,6 +53,7 @@ class ArenaSetup:
         seed: Of the sensors' random numbers.
         families: Those that a detector has to look for, each once.
         virtual: Where robots start that are simulated, by id; the others are real.
+        zenoh: How other computers reach it; None where they do not.
     """
 
     name: str
@@ -69,6 +71,7 @@ class ArenaSetup:
     seed: int = 0
     families: tuple[MarkerFamily, ...] = ()
     virtual: Mapping[int, Place] = field(default_factory=dict)
+    zenoh: ZenohSetup | None = None
 
     @property
     def measured_floor(self) -> MarkerMap | None:
@@ -154,6 +157,7 @@ def _setup(table: ArenaTable, path: Path) -> ArenaSetup:
         table.seed,
         _families(table, floor),
         _virtual(table, roster, fence),
+        zenoh_of(table.zenoh),
     )
 
 

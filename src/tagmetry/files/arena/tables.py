@@ -105,6 +105,15 @@ class MotionTable(OwnFileModel):
     slip_m: float = 0.005
 
 
+class ZenohTable(OwnFileModel):
+    """Other computers: where they meet the arena, and with which keys."""
+
+    listen: str | None = None
+    connect: str | None = None
+    view_key: str | None = None
+    command_key: str | None = None
+
+
 class ArenaTable(OwnFileModel):
     """An arena."""
 
@@ -124,3 +133,4 @@ class ArenaTable(OwnFileModel):
     fence_m: list[list[float]] | None = None
     safety: SafetyTable = Field(default_factory=SafetyTable)
     motion: MotionTable = Field(default_factory=MotionTable)
+    zenoh: ZenohTable | None = None
