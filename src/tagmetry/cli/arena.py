@@ -11,6 +11,7 @@ from tagmetry.cli.arena_recording import export, replay
 from tagmetry.cli.arena_run import run
 from tagmetry.cli.arena_stability import stability
 from tagmetry.cli.arena_twin import twin
+from tagmetry.cli.arena_watch import watch
 
 app = typer.Typer(help="Robots under a ceiling camera.", no_args_is_help=True)
 app.command()(calibrate)
@@ -18,6 +19,7 @@ app.command()(audit)
 app.command()(mount)
 app.command()(run)
 app.command()(twin)
+app.command()(watch)
 app.command()(replay)
 app.command()(export)
 app.command()(client)

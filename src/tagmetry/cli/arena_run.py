@@ -55,6 +55,7 @@ def run(  # noqa: PLR0913 (each argument is an option)
     limit: Annotated[int | None, typer.Option(min=1, help="Stop after so many images.")] = None,
 ) -> None:
     """Follow the robots of an arena; print a line of JSON for each image."""
+    from tagmetry.cli.arena_computers import bridge_takers, opened_bridge, shared_controllers
     from tagmetry.cli.arena_options import opened, setup_and_world
     from tagmetry.cli.interrupts import held_back
     from tagmetry.cli.warmup import tell_compiling
@@ -67,17 +68,22 @@ def run(  # noqa: PLR0913 (each argument is an option)
     latency = Latency()
     with ExitStack() as stack:
         images = stack.enter_context(opened(source, world.view.camera))
+        hears = link is not None or bool(setup.virtual)
+        bridge = opened_bridge(stack, setup, has_listeners=hears)
+        controllers, is_driven = shared_controllers(bridge, controllers)
         task = ArenaMeasurement.of(
             setup,
             world,
             is_live=images.is_live,
             lead_s=lead,
             controllers=controllers,
+            is_driven=is_driven,
             beside=_beside(setup, world),
         )
         stack.callback(task.turning.drivers.close)
         recorder = _recorder(stack, record, lossless=lossless, live=images.is_live)
         takers = _talkers(stack, setup, link, recorder, poses=poses)
+        takers += bridge_takers(bridge, setup, task)
         takers += _writers(stack, out, recorder, quiet=quiet, live=images.is_live)
         results = closing(run_arena(islice(images, limit), task, takers, latency))
         following = stack.enter_context(results)
@@ -153,12 +159,11 @@ def _talkers(
     """Return who talks to the robots, if anybody shall."""
     if link is None:
         return []
-    from tagmetry.pipeline.arena.linked import LinkTaker
+    from tagmetry.pipeline.arena.linked import LinkTaker, sensor_ranges_m
 
     host = open_host(stack, setup, link, recorder)
-    range_m = setup.sensor.range_m if setup.sensor is not None else float("inf")
-    ranges_m = {number: one.range_m for number, one in setup.sensors.items()}
-    return [LinkTaker(host, range_m, ranges_m, poses=poses, silent=setup.virtual.keys())]
+    ranges_m = sensor_ranges_m(setup)
+    return [LinkTaker(host, *ranges_m, poses=poses, silent=setup.virtual.keys())]
 
 
 def open_host(

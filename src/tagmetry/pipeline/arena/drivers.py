@@ -1,6 +1,6 @@
 """The controllers of robots that are driven from the host, and what each of them knows."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from tagmetry.arena import Decision, RobotState, Told, WorldState
@@ -16,9 +16,17 @@ from tagmetry.pipeline.arena.obedience import Obedience
 class Drivers:
     """Asks every robot's controller, unless the robot has to stop."""
 
-    def __init__(self, controllers: Mapping[int, Guarded]) -> None:
-        """Take controllers by robot's id; a robot without one gets no commands."""
+    def __init__(
+        self, controllers: Mapping[int, Guarded], is_driven: Callable[[int], bool] | None = None
+    ) -> None:
+        """Take controllers; a robot without one gets no commands.
+
+        Args:
+            controllers: By the robot's id.
+            is_driven: Says whether a robot's controller drives it just now; always when None.
+        """
         self._controllers = controllers
+        self._is_driven = is_driven if is_driven is not None else _always
         self._moving = {robot_id: OwnMotion() for robot_id in controllers}
         self._obedience = Obedience()
 
@@ -30,7 +38,7 @@ class Drivers:
             world: All robots at the image's time.
         """
         for state in world:
-            if state.id in self._controllers:
+            if state.id in self._controllers and self._is_driven(state.id):
                 self._obedience.watch(state, self._moving[state.id].at(state.time_s))
         return tuple(map(self._with_fault, decisions))
 
@@ -51,9 +59,9 @@ class Drivers:
         """
         stopped = {one.robot_id for one in decisions if one.must_stop}
         known = {one.robot_id: one for one in told}
-        commands = dict.fromkeys(self._controllers, STILL)
+        commands = dict.fromkeys(filter(self._is_driven, self._controllers), STILL)
         for state in world:
-            if state.id in self._controllers and state.id not in stopped:
+            if state.id in commands and state.id not in stopped:
                 own = known.get(state.id, Told(state.id, world.time_s, (), ()))
                 sensed = sensed_s.get(state.id, world.time_s)
                 commands[state.id] = self._asked(state, own, sensed)
@@ -84,6 +92,10 @@ class Drivers:
         if controller is not None and controller.fault is not None:
             decision = _stopped(decision, "controller", controller.fault)
         return _stopped(decision, "disobeys", astray) if astray is not None else decision
+
+
+def _always(_robot_id: int) -> bool:
+    return True
 
 
 def _stopped(decision: Decision, reason: StopReason, fault: str) -> Decision:

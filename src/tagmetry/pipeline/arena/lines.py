@@ -1,4 +1,4 @@
-"""An arena's results as lines of JSON."""
+"""An arena's results as lines of JSON, here and on other computers."""
 
 import json
 from collections.abc import Callable
@@ -6,6 +6,8 @@ from collections.abc import Callable
 import numpy as np
 
 from tagmetry.arena import ArenaStep, Decision, RobotState, Told
+from tagmetry.link import Command
+from tagmetry.link.computers import ArenaSight
 from tagmetry.pipeline.arena.measurement import ArenaResult
 
 
@@ -37,6 +39,19 @@ def arena_line(result: ArenaResult) -> str:
     return json.dumps(line, allow_nan=False, separators=(",", ":"))
 
 
+def sight_line(sight: ArenaSight) -> str:
+    """Return what another computer sees as JSON; times are the clock of the arena's computer."""
+    line: dict[str, object] = {
+        "sequence": sight.image,
+        "time_s": sight.world.time_s,
+        "robots": [_robot(state) for state in sight.world],
+        "held": sorted(sight.held),
+        "stop_for_all": sight.is_stopped,
+        "commanded": [_commanded(*item) for item in sorted(sight.commanded.items())],
+    }
+    return json.dumps(line, allow_nan=False, separators=(",", ":"))
+
+
 def _robot(state: RobotState) -> dict[str, object]:
     deviations = np.sqrt(np.maximum(np.diag(state.covariance), 0.0))
     return {
@@ -50,6 +65,15 @@ def _robot(state: RobotState) -> dict[str, object]:
         "deviations": [_short(value) for value in deviations.tolist()],
         "age_s": _short(state.age_s),
         "seen": state.seen,
+    }
+
+
+def _commanded(robot_id: int, one: Command) -> dict[str, object]:
+    return {
+        "id": robot_id,
+        "forward_mps": _short(one.forward_mps),
+        "turn_radps": _short(one.turn_radps),
+        "valid_for_ms": one.valid_for_ms,
     }
 
 

@@ -2,9 +2,16 @@
 
 from collections.abc import Collection, Mapping
 
+from tagmetry.files.arena import ArenaSetup
 from tagmetry.link import Command, Host, Message
 from tagmetry.pipeline.arena.measurement import ArenaResult, image_time_s
 from tagmetry.pipeline.arena.messages import command_message, neighbours_message, pose_message
+
+
+def sensor_ranges_m(setup: ArenaSetup) -> tuple[float, dict[int, float]]:
+    """Return the reach of the sensors for neighbours: of all robots, and of some, by id."""
+    range_m = setup.sensor.range_m if setup.sensor is not None else float("inf")
+    return range_m, {number: one.range_m for number, one in setup.sensors.items()}
 
 
 class LinkTaker:

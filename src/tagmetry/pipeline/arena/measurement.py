@@ -105,6 +105,7 @@ class ArenaMeasurement:
         is_live: bool = False,
         lead_s: float = 0.0,
         controllers: Callable[[int], Controller] | None = None,
+        is_driven: Callable[[int], bool] | None = None,
         beside: Beside | None = None,
     ) -> "ArenaMeasurement":
         """Return the measurement of an arena's files.
@@ -116,6 +117,7 @@ class ArenaMeasurement:
             is_live: Images arrive by themselves.
             lead_s: How much later than the sending what is told takes effect.
             controllers: Makes a robot's controller from its id; robots drive themselves when None.
+            is_driven: Says whether a robot's controller drives it just now; always when None.
             beside: Simulated robots of the arena.
 
         Raises:
@@ -125,7 +127,8 @@ class ArenaMeasurement:
         arena = Arena(setup.roster, world.view, world.floor, world.reference, setup.motion)
         detector = Detector(setup.families)
         driven = setup.roster.robots if controllers is not None else ()
-        drivers = Drivers({one.id: Guarded(controllers(one.id)) for one in driven if controllers})
+        guarded = {one.id: Guarded(controllers(one.id)) for one in driven if controllers}
+        drivers = Drivers(guarded, is_driven)
         return cls(
             Turning(arena, setup.neighbourhood, setup.safety, drivers),
             world.view.camera,
