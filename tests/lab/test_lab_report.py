@@ -4,8 +4,8 @@ import re
 from pathlib import Path
 
 import pytest
+from seed003_rows import positions
 from small_experiment import SMALL, threads
-from test_seed003_conclusions import positions
 
 from tagmetry.errors import InputError
 from tagmetry.lab.conclusions import Check

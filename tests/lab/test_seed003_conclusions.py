@@ -5,23 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from seed003_rows import positions
 
 from tagmetry.lab.beside.readings import Readings, readings_of
 from tagmetry.lab.beside.seed003_calibration import conclude as conclude_calibration
 from tagmetry.lab.beside.seed003_pose import conclude
 from tagmetry.lab.published.seed003 import seed003
-from tagmetry.lab.rows import Position, Quantity
-
-
-def positions(error_cm: float = 0.0, scale: float = 1.0) -> list[Position]:
-    """Readings of both methods, each twice, with a constant and a scale error."""
-    return [
-        Position(method, repeat, "right", t.table, n, row[1], scale * row[1] + error_cm, math.nan)
-        for method in ("tagmetry", "paper")
-        for repeat in range(2)
-        for t in seed003().positions
-        for n, row in enumerate(t.rows)
-    ]
+from tagmetry.lab.rows import Quantity
 
 
 def table(conclusions, name: str):

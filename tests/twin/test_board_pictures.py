@@ -4,24 +4,17 @@ import itertools
 
 import numpy as np
 import pytest
+from board_squares import squares_m
 from edge_measuring import darkness, outline_corners
 from lens_formulas import project_px
-from test_corner_truth import LENSES, camera, sides_px, tilted
+from tilted_squares import LENSES, camera, sides_px, tilted
 
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.markers import CharucoBoard, Chessboard, CircleGrid
 from tagmetry.twin import Optics, Scene, Shot, exposed
-from tagmetry.twin.scenes import Sheet, Still, board_thing
+from tagmetry.twin.scenes import Still, board_thing
 
 AT_CAMERA = Still(RigidTransform.identity())
-
-
-def squares_m(board: Chessboard | CharucoBoard) -> list[Array]:
-    """The corners of the black squares on the board."""
-    return [
-        Sheet(side, side).corners_m + np.array([left + side / 2, low + side / 2, 0.0])
-        for left, low, side in board.black_squares_m()
-    ]
 
 
 def disc_px(disc: Array, T_camera_board: RigidTransform, lens: str) -> tuple[float, Array]:

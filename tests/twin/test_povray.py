@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from board_squares import squares_m
 from edge_measuring import darkness, outline_corners
 from lens_formulas import project_px
 from povray_scene import traced
-from test_board_pictures import squares_m
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform

@@ -6,7 +6,7 @@ The corners are measured from the light (`edge_measuring`); the true sides only 
 import numpy as np
 import pytest
 from edge_measuring import outline_corners
-from test_corner_truth import LENSES, camera, degree_of, sides_px, tilted
+from tilted_squares import LENSES, camera, degree_of, sides_px, tilted
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
