@@ -7,7 +7,7 @@ import pytest
 from tagmetry.detect.segment.corners import far_points, four_corners
 from tagmetry.detect.segment.dark import columns_and_rows, dark_bits, row_shift, thinned
 from tagmetry.detect.segment.distinct import distinct
-from tagmetry.detect.segment.outline import at_level, crack_at, midway, steps, walk
+from tagmetry.detect.segment.outline import at_level, box, crack_at, midway, steps, walk
 from tagmetry.detect.segment.starts import starts
 from tagmetry.detect.segment.tiles import Extremes, Tiles, noise_gate, tile_extremes
 
@@ -71,21 +71,24 @@ def beginnings(bits: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
     return starts(bits, grey, tile_extremes(grey)[0], 0.5, 8 * bits.size)
 
 
-def walk_on(bits: np.ndarray, marks: np.ndarray, start: np.uint64, cracks: np.ndarray) -> int:
-    """Walk on bits with rows, and return how many cracks were written."""
-    return walk(bits.reshape(-1), marks, steps(8 * bits.shape[1]), start, cracks)
+def walk_on(bits: np.ndarray, start: np.uint64, cracks: np.ndarray) -> np.ndarray:
+    """Walk on bits with rows, and return the outline's cracks; all that were written are in it."""
+    row = 8 * bits.shape[1]
+    ways = steps(row, 1), steps(row, -1)
+    begin, end = walk(bits.reshape(-1), np.uint64(row), *ways, start, cracks)
+    return cracks[begin:end]
 
 
 def walked(dark: np.ndarray) -> tuple[list[np.ndarray], int]:
     """All outlines of what is dark as (column, row, side), and how many cracks were written."""
     outlines, count, bits = [], 0, bits_of(dark)
-    marks, nothing = np.zeros(bits.size, np.uint8), np.uint64(2**64 - 1)
+    nothing = np.uint64(2**64 - 1)
     for start in beginnings(bits, dark.shape):
-        cracks = np.full(8 * bits.size, nothing)
-        length = walk_on(bits, marks, start, cracks)
+        cracks = np.full(16 * bits.size, nothing)
+        outline = walk_on(bits, start, cracks)
         count += np.count_nonzero(cracks != nothing)
-        if length:
-            outlines.append(cracks[:length])
+        if len(outline):
+            outlines.append(outline)
     return outlines, count
 
 
@@ -165,20 +168,23 @@ def test_one_outline_around_each_of_opencv_s_components(share: float) -> None:
     assert sorted(own.pop() for own in around) == list(range(1, count))
 
 
-@pytest.mark.parametrize("kind", ["noise", "comb", "checks", "spiral"])
-def test_no_crack_is_walked_much_more_than_once(kind: str) -> None:
+@pytest.mark.parametrize("kind", ["noise", "comb", "ruler", "checks", "spiral"])
+def test_n_cracks_are_walked_n_log_n_times_at_most(kind: str) -> None:
     """So the time is bounded by the number of pixels, whatever an image shows."""
     y, x = np.indices((64, 96))
+    teeth = x // 4 + 1
+    longer_teeth = np.log2(teeth & -teeth)  # every second, fourth, eighth is longer
     dark = {
         "noise": RNG.random((64, 96)) < 0.55,
         "comb": (x % 4 < 2) | (y > 60),
+        "ruler": (x % 4 < 2) & (y > 50 - 10 * longer_teeth) | (y > 60),
         "checks": (x + y) % 2 == 0,
         "spiral": (np.hypot(x - 48, y - 32) + 1.3 * np.arctan2(y - 32, x - 48)) % 8 < 4,
     }[kind]
     inner = np.pad(dark, 1).astype(int)
     cracks = np.abs(np.diff(inner, axis=0)).sum() + np.abs(np.diff(inner, axis=1)).sum()
     _, steps = walked(dark)
-    assert steps <= 1.5 * cracks
+    assert steps <= 0.5 * cracks * np.log2(cracks)
 
 
 def test_an_outline_surrounds_its_component_clockwise() -> None:
@@ -190,9 +196,10 @@ def test_an_outline_surrounds_its_component_clockwise() -> None:
     assert len(cracks) == 2 * (15 + 9)
     points = middles(cracks, dark)
     assert area(points) == pytest.approx(9 * 4 + 4 * 11, abs=3)  # the corners are cut
+    assert box(cracks, row_shift(bits_of(dark))) == (15, 9)
     bits, short = bits_of(dark), np.empty(len(cracks) - 1, np.uint64)
     (start,) = beginnings(bits, dark.shape)[:1]
-    assert walk_on(bits, np.zeros(bits.size, np.uint8), start, short) == 0
+    assert len(walk_on(bits, start, short)) == 0
     few = np.empty((8, 2))
     midway(cracks, row_shift(bits), 6, few)
     np.testing.assert_array_equal(few, points[::6])

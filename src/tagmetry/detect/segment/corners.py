@@ -28,8 +28,8 @@ def far_points(points: Array, slack_px: float, indices: IntArray) -> bool:
         indices: For the result, in order, shape (5,); the last is the first again, n later.
     """
     n = len(points)
-    middle_x, middle_y = points[:, 0].mean(), points[:, 1].mean()
-    begin = _farthest(points, middle_x, middle_y)
+    across = points[n // 2]
+    begin = _farthest(points, (points[0, 0] + across[0]) / 2, (points[0, 1] + across[1]) / 2)
     indices[:] = begin + n
     indices[0] = begin
     indices[1] = _farthest(points, points[begin, 0], points[begin, 1])
@@ -107,27 +107,37 @@ def _fit_line(points: Array, begin: int, end: int, outset_px: float, line: Array
     """Write (point, unit direction) of a side's least-squares line; say whether it is straight."""
     n = len(points)
     trim = (end - begin) // 8
-    count = end - begin - 2 * trim
     from_x, from_y = points[begin % n]
     x = y = xx = xy = yy = 0.0
     for i in range(begin + trim, end - trim):
         j = i if i < n else i - n
         dx, dy = points[j, 0] - from_x, points[j, 1] - from_y
-        x, y = x + dx / count, y + dy / count
-        xx, xy, yy = xx + dx * dx / count, xy + dx * dy / count, yy + dy * dy / count
-    xx, xy, yy = xx - x * x, xy - x * y, yy - y * y
+        x, y = x + dx, y + dy
+        xx, xy, yy = xx + dx * dx, xy + dx * dy, yy + dy * dy
+    each = 1.0 / (end - begin - 2 * trim)
+    x, y = x * each, y * each
+    xx, xy, yy = xx * each - x * x, xy * each - x * y, yy * each - y * y
     chord_x, chord_y = points[end % n, 0] - from_x, points[end % n, 1] - from_y
-    angle = 0.5 * np.arctan2(2 * xy, xx - yy)
-    ux, uy = np.cos(angle), np.sin(angle)
+    ux, uy, across2 = _principal(xx, xy, yy)
     if ux * chord_x + uy * chord_y < 0:
         ux, uy = -ux, -uy
-    across2 = xx * uy * uy - 2 * xy * ux * uy + yy * ux * ux
-    line[0], line[1] = (
-        from_x + x + outset_px * uy,
-        from_y + y - outset_px * ux,
-    )  # outward: (uy, -ux)
+    line[0], line[1] = from_x + x + outset_px * uy, from_y + y - outset_px * ux
     line[2], line[3] = ux, uy
-    return bool(across2 <= max(_ROUGH_PX, _ROUGH * np.sqrt(chord_x**2 + chord_y**2)) ** 2)
+    return bool(across2 <= max(_ROUGH_PX**2, _ROUGH**2 * (chord_x**2 + chord_y**2)))
+
+
+@njit(cache=True, nogil=True)
+def _principal(xx: float, xy: float, yy: float) -> tuple[float, float, float]:
+    """Return the unit direction in which points of such second moments spread, and how far across.
+
+    The latter is the mean square across the direction, the lesser eigenvalue. The direction is the
+    longer of two that are the same but for rounding; (0, 0) where all points are one.
+    """
+    apart = np.sqrt((xx - yy) ** 2 + 4 * xy * xy)
+    flat = xx >= yy
+    ux, uy = (apart + xx - yy, 2 * xy) if flat else (2 * xy, apart + yy - xx)
+    inverse = 1.0 / max(np.sqrt(ux * ux + uy * uy), 1e-30)
+    return ux * inverse, uy * inverse, 0.5 * (xx + yy - apart)
 
 
 @njit(cache=True, nogil=True)

@@ -7,13 +7,13 @@ from numba import njit
 
 from tagmetry.detect.segment.corners import far_points, four_corners
 from tagmetry.detect.segment.dark import Bits, Places, dark_bits, row_shift, thinned
-from tagmetry.detect.segment.outline import Cracks, at_level, crack_at, midway, steps, walk
+from tagmetry.detect.segment.outline import Cracks, at_level, box, midway, steps, walk
 from tagmetry.detect.segment.starts import starts
 from tagmetry.detect.segment.tiles import Tiles
 from tagmetry.geometry.arrays import Array, GreyPixels
 
-_DETOUR = 1.5  # an outline's length by the way around its box, which is 1 for convex shapes
-_DETOUR_PX = 16
+_DETOUR = 1.25  # an outline's length by the way around its box, which is 1 for convex shapes
+_DETOUR_PX = 4
 _STEPS_PX = 0.4  # how far steps from pixel to pixel stray from a side; thinned ones may not
 _POINTS = 48  # and up to twice as many, of an outline
 _NO_LEVELS = np.empty((0, 0), np.uint8)
@@ -82,11 +82,12 @@ def _outlined(
     corners = np.empty((len(begins), 4, 2))
     count = 0
     walked = np.empty(longest_px, np.uint64)
-    flat, marks = bits.reshape(-1), np.zeros(bits.size, np.uint8)
-    table, shift = steps(8 * bits.shape[1]), row_shift(bits)
+    flat, shift, row_px = bits.reshape(-1), row_shift(bits), 8 * bits.shape[1]
+    onward, backward = steps(row_px, 1), steps(row_px, -1)
     for start in begins:
-        cracks = walked[: walk(flat, marks, table, start, walked)]
-        if len(cracks) >= 3 * least_px and _may_be_a_square(cracks, shift, least_px):
+        begin, end = walk(flat, np.uint64(row_px), onward, backward, start, walked)
+        if end - begin >= 4 * least_px and _may_be_a_square(walked[begin:end], shift, least_px):
+            cracks = walked[begin:end]
             square = _four_sided(cracks, shift, grey, levels, outset_px, corners[count])
             count += square and _least_side(corners[count]) >= least_px
     return corners[:count]
@@ -95,12 +96,7 @@ def _outlined(
 @njit(cache=True, nogil=True)
 def _may_be_a_square(cracks: Cracks, shift: int, least_px: float) -> bool:
     """Say whether an outline is large and wide enough, and goes around without much detour."""
-    left, top, _ = crack_at(cracks[0], shift)
-    right, bottom = left, top
-    for crack in cracks:
-        x, y, _ = crack_at(crack, shift)
-        left, right, bottom = min(left, x), max(right, x), max(bottom, y)
-    width, height = right - left + 1, bottom - top + 1
+    width, height = box(cracks, shift)
     longer, shorter = max(width, height), min(width, height)
     wide = longer >= least_px and shorter >= max(_FLATTEST * longer, 0.5 * least_px)
     return wide and len(cracks) <= _detour_px(width + height)
