@@ -175,7 +175,8 @@ def test_the_same_seed_tells_the_same() -> None:
 
 
 def test_a_robot_alone_is_told_nothing() -> None:
-    assert Neighbourhood().tell(world(state(4, 0, 0))) == (Told(4, 0.0, (), ()),)
+    (told,) = Neighbourhood().tell(world(state(4, 0, 0)))
+    assert (told.robot_id, told.neighbours, told.obstacles) == (4, (), ())
     assert Neighbourhood().tell(world()) == ()
 
 

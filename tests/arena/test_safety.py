@@ -1,7 +1,5 @@
 """Robots are stopped for every reason, and for no other."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from overhead import robot
@@ -27,14 +25,14 @@ def reasons(state: RobotState | None, stop: StopForAll, rules: SafetyRules) -> t
     [
         (HERE, ()),
         (None, ("never seen",)),
-        (replace(HERE, age_s=0.5), ()),
-        (replace(HERE, age_s=0.501), ("not seen",)),
-        (replace(HERE, age_s=float("nan")), ("not seen",)),
-        (replace(HERE, x_m=0.919), ()),
-        (replace(HERE, x_m=0.921), ("outside the fence",)),
-        (replace(HERE, y_m=-3.0), ("outside the fence",)),
-        (replace(HERE, x_m=float("nan")), ("outside the fence",)),
-        (replace(HERE, y_m=-3.0, age_s=9.0), ("not seen", "outside the fence")),
+        (HERE._replace(age_s=0.5), ()),
+        (HERE._replace(age_s=0.501), ("not seen",)),
+        (HERE._replace(age_s=float("nan")), ("not seen",)),
+        (HERE._replace(x_m=0.919), ()),
+        (HERE._replace(x_m=0.921), ("outside the fence",)),
+        (HERE._replace(y_m=-3.0), ("outside the fence",)),
+        (HERE._replace(x_m=float("nan")), ("outside the fence",)),
+        (HERE._replace(y_m=-3.0, age_s=9.0), ("not seen", "outside the fence")),
     ],
 )
 def test_reasons_to_stop(state: RobotState | None, expected: tuple[str, ...]) -> None:
@@ -44,7 +42,7 @@ def test_reasons_to_stop(state: RobotState | None, expected: tuple[str, ...]) ->
 
 
 def test_a_margin_stops_earlier() -> None:
-    state = replace(HERE, x_m=0.9)
+    state = HERE._replace(x_m=0.9)
     assert reasons(state, StopForAll(), SafetyRules(0.5, FENCE, 0.05)) == ("outside the fence",)
 
 

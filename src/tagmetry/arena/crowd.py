@@ -38,13 +38,8 @@ class Crowd:
         numbers = [(one.x_m, one.y_m, one.heading_rad) for one in self.world.robots]
         return np.array(numbers, dtype=np.float64).reshape(-1, 3)
 
-    @cached_property
-    def polar(self) -> tuple[Array, Array]:
-        """Ranges and bearings of all robots (columns) from each (rows), each of shape (n, n)."""
-        return polar(self.places[:, None, :], self.places[None, :, :2])
-
 
 def polar(own: Array, places: Array) -> tuple[Array, Array]:
-    """Return ranges and bearings of places (..., 2) from (x, y, heading) (..., 3)."""
-    x, y = np.moveaxis(places - own[..., :2], -1, 0)
-    return np.hypot(x, y), wrap_angle_rad(np.arctan2(y, x) - own[..., 2])
+    """Return ranges and bearings of places (n, 2) from (x, y, heading)."""
+    x, y = (places - own[:2]).T
+    return np.hypot(x, y), wrap_angle_rad(np.arctan2(y, x) - own[2])

@@ -16,7 +16,8 @@ import numpy as np
 from tagmetry.arena.crowd import Crowd, polar
 from tagmetry.arena.neighbour_sensor import NeighbourSensor
 from tagmetry.arena.obstacles import Obstacle, between
-from tagmetry.arena.told import NearObstacle, Neighbour, Told
+from tagmetry.arena.reach import within_reach
+from tagmetry.arena.told import NearObstacle, Told
 from tagmetry.arena.world_state import WorldState
 from tagmetry.geometry import Array, wrap_angle_rad
 from tagmetry.geometry.arrays import BoolArray, IntArray
@@ -54,13 +55,19 @@ class Neighbourhood:
         """
         self._crowds.append(Crowd(world))
         self._forget(world.time_s)
-        by_sensor: dict[NeighbourSensor, list[int]] = {}
-        for robot in world:
-            by_sensor.setdefault(self.sensor_of(robot.id), []).append(robot.id)
         told: dict[int, Told] = {}
-        for sensor, ids in by_sensor.items():
+        for sensor, ids in self._by_sensor(world).items():
             told |= self._told(sensor, ids, world.time_s)
         return tuple(told[robot.id] for robot in world)
+
+    def _by_sensor(self, world: WorldState) -> Mapping[NeighbourSensor, Sequence[int]]:
+        """Return the ids of the robots that have each sensor."""
+        if not self.sensors:
+            return {self.sensor: [robot.id for robot in world]}
+        found: dict[NeighbourSensor, list[int]] = {}
+        for robot in world:
+            found.setdefault(self.sensor_of(robot.id), []).append(robot.id)
+        return found
 
     def sensor_of(self, robot_id: int) -> NeighbourSensor:
         """Return the sensor that a robot has."""
@@ -75,15 +82,15 @@ class Neighbourhood:
 
     def _told(self, sensor: NeighbourSensor, ids: Sequence[int], time_s: float) -> dict[int, Told]:
         """Return what robots with a sensor are told, by id."""
-        told = {robot_id: Told(robot_id, time_s, (), ()) for robot_id in ids}
         crowd = self._crowd_at(time_s - sensor.delay_s)
         known = [one for one in ids if crowd is not None and one in crowd.rows]
+        told = {one: Told.nothing(one, time_s) for one in ids} if len(known) < len(ids) else {}
         if crowd is None or not known:
             return told
         neighbours = self._neighbours(crowd, known, sensor, time_s)
-        for robot_id, seen in zip(known, neighbours, strict=True):
+        for robot_id, sensed_ones in zip(known, neighbours, strict=True):
             near = self._near(crowd.places[crowd.rows[robot_id]], sensor, robot_id)
-            told[robot_id] = Told(robot_id, time_s, seen, near)
+            told[robot_id] = Told(robot_id, time_s, sensed_ones, near)
         return told
 
     def _crowd_at(self, time_s: float) -> Crowd | None:
@@ -93,33 +100,32 @@ class Neighbourhood:
 
     def _neighbours(
         self, crowd: Crowd, ids: Sequence[int], sensor: NeighbourSensor, time_s: float
-    ) -> list[tuple[Neighbour, ...]]:
-        """Return whom each of some robots senses, the nearest first."""
+    ) -> list[Array]:
+        """Return whom each of some robots senses, the nearest first, as `Told.sensed`."""
         rows = np.array([crowd.rows[one] for one in ids])
-        is_sensed = self._sensed_of(crowd, rows, sensor)
-        who, whom = np.nonzero(is_sensed)
-        ranges, bearings = (values[rows[who], whom] for values in crowd.polar)
-        turns = crowd.places[whom, 2] - crowd.places[rows[who], 2]
-        draws = self._draws(ids, is_sensed.sum(axis=1).tolist(), sensor)
-        told = sensed(np.stack([ranges, bearings, turns], axis=-1), sensor, *draws)
+        view = float(sensor.view_center_rad), float(sensor.view_rad)
+        who, whom, exact = within_reach(crowd.places, rows, float(sensor.range_m), view)
+        if sensor.line_of_sight:
+            is_seen = self._seen(crowd, rows, 2 * sensor.range_m)[who, whom]
+            who, whom, exact = who[is_seen], whom[is_seen], exact[is_seen]
+        draws = self._draws(ids, np.bincount(who, minlength=len(ids)).tolist(), sensor)
+        told = sensed(exact, sensor, *draws)
         order = np.lexsort((told[:, 0], who))
         order = order[~np.isnan(told[order, 0])]  # the others dropped out
-        numbers, ages_s = crowd.ids[whom[order]], crowd.ages_s[whom[order]]
-        ages_s = ages_s + (time_s - crowd.world.time_s)
-        columns = (one.tolist() for one in (numbers, *told[order].T, ages_s))
-        seen = tuple(map(Neighbour._make, zip(*columns, strict=True)))
+        ages_s = crowd.ages_s[whom[order]] + (time_s - crowd.world.time_s)
+        rest = np.column_stack([crowd.ids[whom[order]], told[order], ages_s])
         ends = np.searchsorted(who[order], np.arange(len(ids) + 1)).tolist()
-        return [seen[first:last][: sensor.most] for first, last in pairwise(ends)]
+        return [rest[first:last][: sensor.most] for first, last in pairwise(ends)]
 
-    def _sensed_of(self, crowd: Crowd, rows: IntArray, sensor: NeighbourSensor) -> BoolArray:
-        """Say which of all robots (columns) those of some rows have within sight, shape (m, n)."""
-        ranges, bearings = (values[rows] for values in crowd.polar)
-        is_sensed = _within(ranges, bearings, sensor)
-        is_sensed[np.arange(len(rows)), rows] = False
-        if sensor.line_of_sight:
-            for k, row in enumerate(rows.tolist()):
-                is_sensed[k] &= self._in_sight(crowd, row, ranges[k] <= 2 * sensor.range_m)
-        return is_sensed
+    def _seen(self, crowd: Crowd, rows: IntArray, near_m: float) -> BoolArray:
+        """Say which of all robots (columns) nothing hides from those of some rows, shape (m, n)."""
+        ranges = [polar(crowd.places[row], crowd.places[:, :2])[0] for row in rows]
+        return np.array(
+            [
+                self._in_sight(crowd, row, away_m <= near_m)
+                for row, away_m in zip(rows.tolist(), ranges, strict=True)
+            ]
+        )
 
     def _near(self, own: Array, sensor: NeighbourSensor, robot_id: int) -> tuple[NearObstacle, ...]:
         if not self.obstacles:

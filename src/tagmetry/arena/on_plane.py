@@ -71,12 +71,12 @@ class OverheadView:
     @cached_property
     def R_world_camera(self) -> Array:  # noqa: N802 (a frame's name)
         """How the camera is turned, shape (3, 3)."""
-        return np.asarray(self.T_world_camera.rotation.as_matrix())
+        return np.array(self.T_world_camera.rotation.as_matrix(), dtype=np.float64)
 
     @cached_property
     def camera_in_world(self) -> Array:
         """Where the camera is, shape (3,), m."""
-        return np.asarray(self.T_world_camera.translation)
+        return np.array(self.T_world_camera.translation, dtype=np.float64)
 
 
 def point_on_plane(

@@ -117,7 +117,7 @@ def sight(detections: Sequence[Detection], roster: Roster, view: OverheadView) -
     mounts = roster.mounts[rows]
     fits = fit_squares(view, corners_px, covariances_px2, mounts[:, 0], mounts[:, 1])
     squares = fits.places, fits.noise, fits.by_camera, fits.by_height, fits.chi2
-    places, noise, common = centred(squares, mounts, view.covariance)
+    places, noise, common = centred(squares, mounts, np.array(view.covariance, dtype=np.float64))
     seen = Sightings(rows, places, noise, common, fits.chi2)
     is_placed = np.isfinite(places).all(axis=1) & np.isfinite(fits.chi2)
     return seen if is_placed.all() else seen.at(is_placed)

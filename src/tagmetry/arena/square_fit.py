@@ -74,10 +74,13 @@ def fit_squares(
     Returns:
         The fits; NaN where a ray misses its plane, or a covariance is not positive definite.
     """
-    rays, by_point = rays_and_jacobians(view.camera, corners_px)
+    corners, covariances, sizes, heights = (
+        np.array(one, dtype=np.float64) for one in (corners_px, covariances_px2, sizes_m, heights_m)
+    )
+    rays, by_point = rays_and_jacobians(view.camera, corners)
     fits = SquareFits.unknown(len(rays))
     fit_all(
-        (rays, by_point, covariances_px2, sizes_m, heights_m),
+        (rays, by_point, covariances, sizes, heights),
         (view.R_world_camera, view.camera_in_world),
         (fits.places, fits.noise, fits.by_camera, fits.by_height),
         (fits.higher_m, fits.higher_sd_m, fits.chi2),

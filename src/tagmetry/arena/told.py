@@ -1,8 +1,15 @@
 """What one robot is told of those around it, in its own frame: x forward, y to its left."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import cos, sin
-from typing import NamedTuple
+from typing import NamedTuple, Self
+
+import numpy as np
+
+from tagmetry.geometry import Array
+
+_NOBODY = np.empty((0, 5))
 
 
 class Neighbour(NamedTuple):
@@ -48,18 +55,29 @@ class NearObstacle:
     bearing_rad: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Told:
     """What a robot is told at one moment: the record of it, too.
 
     Attributes:
         robot_id: Who is told.
         time_s: When.
-        neighbours: The nearest first.
+        sensed: The neighbours, the nearest first, as numbers in the order of `Neighbour`, shape
+            (n, 5); they are kept and sent so.
         obstacles: The nearest first.
     """
 
     robot_id: int
     time_s: float
-    neighbours: tuple[Neighbour, ...]
-    obstacles: tuple[NearObstacle, ...]
+    sensed: Array
+    obstacles: tuple[NearObstacle, ...] = ()
+
+    @classmethod
+    def nothing(cls, robot_id: int, time_s: float) -> Self:
+        """Return what a robot is told that senses nobody and nothing."""
+        return cls(robot_id, time_s, _NOBODY)
+
+    @cached_property
+    def neighbours(self) -> tuple[Neighbour, ...]:
+        """The nearest first."""
+        return tuple(Neighbour(int(one[0]), *one[1:]) for one in self.sensed.tolist())

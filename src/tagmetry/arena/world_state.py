@@ -6,15 +6,15 @@ to its own forward axis, counter-clockwise seen from above.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from tagmetry.geometry import Array
 
 STATE_NAMES = ("x_m", "y_m", "heading_rad", "speed_mps", "turn_rate_radps")
 
 
-@dataclass(frozen=True, eq=False)
-class RobotState:
-    """One robot on the floor.
+class RobotState(NamedTuple):
+    """One robot on the floor; hundreds are made of an image, hence a tuple.
 
     Attributes:
         id: The robot's own number in the arena; not its marker's id.

@@ -9,7 +9,14 @@ import struct
 
 from tagmetry.errors import InputError
 from tagmetry.link.layout import COVARIANCES, Kind
-from tagmetry.link.messages import KINDS, Message, Neighbours, State, Telemetry
+from tagmetry.link.messages import (
+    KINDS,
+    Message,
+    Neighbours,
+    PackedNeighbours,
+    State,
+    Telemetry,
+)
 from tagmetry.link.neighbour_list import pack_neighbours, unpack_neighbours
 from tagmetry.link.readings import pack_telemetry, unpack_telemetry
 from tagmetry.link.wire import BODIES
@@ -24,6 +31,8 @@ def pack_body(message: Message) -> tuple[Kind, bytes]:
         InputError: A number does not fit, or is not finite.
     """
     kind = KINDS[type(message)]
+    if isinstance(message, PackedNeighbours):
+        return kind, message.body
     if isinstance(message, Neighbours):
         return kind, pack_neighbours(message)
     if isinstance(message, Telemetry):

@@ -9,7 +9,7 @@ import secrets
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Self
 
 from tagmetry.closing import Closing
@@ -121,6 +121,17 @@ class Host(Closing):
             return False
         self._hear_between()
         return self._send(peer, message)
+
+    def send_all(self, messages: Sequence[tuple[int, Message]]) -> int:
+        """Send messages to robots, given by id, one after another.
+
+        Returns:
+            How many left, as `send` tells it of each.
+
+        Raises:
+            InputError: As of `send`; those before have left.
+        """
+        return sum(self.send(robot_id, message) for robot_id, message in messages)
 
     def pulse(self) -> None:
         """Say that the program is alive, where it has nothing to send."""

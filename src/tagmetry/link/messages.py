@@ -93,6 +93,13 @@ class Neighbours:
 
 
 @dataclass(frozen=True)
+class PackedNeighbours:
+    """What `Neighbours` says, packed already, together with those of many robots."""
+
+    body: bytes
+
+
+@dataclass(frozen=True)
 class Command:
     """How to move for `valid_for_ms` from the moment of sending; `lamp` from 0 to 65535.
 
@@ -165,6 +172,7 @@ Message = (
     | EmergencyStop
     | Pose
     | Neighbours
+    | PackedNeighbours
     | Command
     | Odometry
     | Telemetry
@@ -180,7 +188,8 @@ KINDS: dict[type[Message], Kind] = {
     Beat: Kind.BEAT,
     EmergencyStop: Kind.ESTOP,
     Pose: Kind.POSE,
-    Neighbours: Kind.NEIGHBOURS,
+    PackedNeighbours: Kind.NEIGHBOURS,
+    Neighbours: Kind.NEIGHBOURS,  # what is received is of the last type
     Command: Kind.COMMAND,
     Odometry: Kind.ODOMETRY,
     Telemetry: Kind.TELEMETRY,

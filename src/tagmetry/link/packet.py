@@ -6,9 +6,9 @@ Python's standard library, and sixty lines of C.
 
 import hmac
 import struct
-from dataclasses import dataclass
 from enum import StrEnum
 from hashlib import blake2s
+from typing import NamedTuple
 
 from tagmetry.link.layout import Kind, Sender
 from tagmetry.link.wire import BODIES, FRAME_BYTES, HEADER, MAGIC, MOST_BYTES, TAG_BYTES, VERSION
@@ -29,8 +29,7 @@ class Refusal(StrEnum):
     CONTENT = "sealed, but its content makes no sense"
 
 
-@dataclass(frozen=True)
-class Header:
+class Header(NamedTuple):
     """What a packet says of itself; true only once its tag was checked."""
 
     kind: Kind

@@ -50,7 +50,7 @@ def test_all_that_was_taken_is_read_again(tmp_path: Path) -> None:
     (told,) = contents_of(path, STATES)
     found = parse_state(told)
     np.testing.assert_array_equal(found.robots[0].covariance, ROBOT.covariance)
-    assert vars(replace(found.robots[0], covariance=None)) == vars(replace(ROBOT, covariance=None))
+    assert found.robots[0]._replace(covariance=None) == ROBOT._replace(covariance=None)
     assert parse_packet(contents_of(path, PACKETS)[0]) == PACKET
     assert json.loads(contents_of(path, "/latency")[0]) == {"total_s": 0.012, "none": None}
 

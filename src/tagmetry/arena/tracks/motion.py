@@ -47,8 +47,12 @@ class Motion:
             step_s: Not negative.
         """
         parts = int(np.clip(np.ceil(step_s / _LONGEST_S), 1, _MOST_PARTS))
-        strengths = self.acceleration_mps2, self.turning_radps2, self.slip_m
+        strengths = (
+            float(self.acceleration_mps2),
+            float(self.turning_radps2),
+            float(self.slip_m),
+        )
         means, covariances = means.copy(), covariances.copy()
         for _ in range(parts):
-            predict(means, covariances, step_s / parts, strengths)
+            predict(means, covariances, float(step_s / parts), strengths)
         return means, covariances

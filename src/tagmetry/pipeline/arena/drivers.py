@@ -37,6 +37,8 @@ class Drivers:
             decisions: Who has to stop anyway.
             world: All robots at the image's time.
         """
+        if not self._controllers:
+            return tuple(decisions)
         for state in world:
             if state.id in self._controllers and self._is_driven(state.id):
                 self._obedience.watch(state, self._moving[state.id].at(state.time_s))
@@ -57,12 +59,14 @@ class Drivers:
             decisions: Who has to stop.
             sensed_s: What moment each is told of, by id.
         """
+        if not self._controllers:
+            return {}
         stopped = {one.robot_id for one in decisions if one.must_stop}
         known = {one.robot_id: one for one in told}
         commands = dict.fromkeys(filter(self._is_driven, self._controllers), STILL)
         for state in world:
             if state.id in commands and state.id not in stopped:
-                own = known.get(state.id, Told(state.id, world.time_s, (), ()))
+                own = known.get(state.id, Told.nothing(state.id, world.time_s))
                 sensed = sensed_s.get(state.id, world.time_s)
                 commands[state.id] = self._asked(state, own, sensed)
         for robot_id, twist in commands.items():

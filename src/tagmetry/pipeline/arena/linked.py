@@ -5,7 +5,9 @@ from collections.abc import Collection, Mapping
 from tagmetry.files.arena import ArenaSetup
 from tagmetry.link import Command, Host, Message
 from tagmetry.pipeline.arena.measurement import ArenaResult, image_time_s
-from tagmetry.pipeline.arena.messages import command_message, neighbours_message, pose_message
+from tagmetry.pipeline.arena.messages import command_message, neighbours_messages, pose_message
+
+_ToRobot = tuple[int, Message]
 
 
 def sensor_ranges_m(setup: ArenaSetup) -> tuple[float, dict[int, float]]:
@@ -54,29 +56,29 @@ class LinkTaker:
             self._host.pulse()
             return
         self._sent_s = result.done_s
-        self._drive(result)
-        for told in result.told:
-            range_m = self._ranges_m.get(told.robot_id, self._range_m)
-            self._send(told.robot_id, neighbours_message(told, range_m, result.taken_s))
+        messages = [*self._commands(result), *self._neighbours(result)]
         if self._poses:
             acts_s = result.taken_s + result.world.time_s - image_time_s(result.image)
-            for state in result.world:
-                self._send(state.id, pose_message(state, acts_s))
+            messages += [(state.id, pose_message(state, acts_s)) for state in result.world]
+        self._host.send_all([one for one in messages if one[0] not in self._silent])
 
     def close(self) -> None:
         """The host falls silent by itself, and robots stop."""
 
-    def _drive(self, result: ArenaResult) -> None:
-        """Send commands, to stand still where a robot must not drive."""
-        for robot_id, twist in result.commands.items():
-            self._send(robot_id, command_message(twist))
-        for one in result.decisions:
-            if one.must_stop:
-                self._send(one.robot_id, Command(valid_for_ms=0))
+    def _commands(self, result: ArenaResult) -> list[_ToRobot]:
+        """Return commands, to stand still where a robot must not drive."""
+        commands: list[_ToRobot] = [
+            (robot_id, command_message(twist)) for robot_id, twist in result.commands.items()
+        ]
+        halt = Command(valid_for_ms=0)
+        return commands + [(one.robot_id, halt) for one in result.decisions if one.must_stop]
 
-    def _send(self, robot_id: int, message: Message) -> None:
-        if robot_id not in self._silent:
-            self._host.send(robot_id, message)
+    def _neighbours(self, result: ArenaResult) -> list[_ToRobot]:
+        """Return whom each robot senses."""
+        told = result.told
+        ranges_m = [self._ranges_m.get(one.robot_id, self._range_m) for one in told]
+        messages = neighbours_messages(told, ranges_m, result.taken_s)
+        return [(one.robot_id, message) for one, message in zip(told, messages, strict=True)]
 
     def _stop(self, result: ArenaResult) -> None:
         if result.stop.is_pressed and not self._is_stopped:

@@ -1,8 +1,12 @@
 """What robots are told, as the link's messages."""
 
+from collections.abc import Sequence
+
 from tagmetry.arena import RobotState, Told
 from tagmetry.arena.drive import Twist
-from tagmetry.link import Command, Neighbour, Neighbours, Pose
+from tagmetry.link import Command, Pose
+from tagmetry.link.messages import PackedNeighbours
+from tagmetry.link.neighbour_table import pack_neighbour_table
 
 _COMMAND_MS = 200
 
@@ -29,13 +33,11 @@ def pose_message(state: RobotState, time_s: float) -> Pose:
     )
 
 
-def neighbours_message(told: Told, range_m: float, time_s: float) -> Neighbours:
-    """Return whom a robot senses within its sensor's range, at a moment of the link's clock."""
-    seen = tuple(
-        Neighbour(one.id, one.range_m, one.bearing_rad, one.relative_heading_rad, one.age_s)
-        for one in told.neighbours
-    )
-    return Neighbours(microseconds(time_s), range_m, seen)
+def neighbours_messages(
+    told: Sequence[Told], ranges_m: Sequence[float], time_s: float
+) -> list[PackedNeighbours]:
+    """Return whom robots sense within their sensors' ranges, at a moment of the link's clock."""
+    return pack_neighbour_table(microseconds(time_s), ranges_m, [one.sensed for one in told])
 
 
 def microseconds(time_s: float) -> int:

@@ -21,7 +21,7 @@ from tagmetry.pipeline.arena.guarded import Guarded
 from tagmetry.pipeline.arena.messages import (
     command_message,
     microseconds,
-    neighbours_message,
+    neighbours_messages,
     pose_message,
 )
 from tagmetry.pipeline.arena.turning import Turn, Turning
@@ -218,6 +218,7 @@ class TwinArena:
             self._base.send(robot_id, command_message(twist), now_us)
         for state in turn.world:
             self._base.send(state.id, pose_message(state, state.time_s), now_us)
-        for told in turn.told:
-            message = neighbours_message(told, reach_m, told.time_s)
+        reaches_m = [reach_m] * len(turn.told)
+        messages = neighbours_messages(turn.told, reaches_m, turn.step.world.time_s)
+        for told, message in zip(turn.told, messages, strict=True):
             self._base.send(told.robot_id, message, now_us)
