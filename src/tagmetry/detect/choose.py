@@ -1,14 +1,14 @@
-"""Which squares are markers, and which of several squares at one place is the marker."""
+"""Which squares are markers?"""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from tagmetry.detect.detection import Detection, Rejection
-from tagmetry.detect.places import first_per_place
+from tagmetry.detect.candidates import Candidates
 from tagmetry.detect.reading.decode import Reading, Readings, has_border, has_outline
-from tagmetry.detect.reading.nearest import Match, Matches, nearest, nearest_of_each
+from tagmetry.detect.reading.nearest import Matches, nearest, nearest_of_each
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, IntArray
 from tagmetry.markers import MarkerFamily
@@ -18,32 +18,6 @@ _WEAK_CHANCE = 1e-4  # families that random bits pass for more often must be rea
 _LEAST_OF_WEAK = 0.85
 _MANY_BITS = 1000  # more than any code has
 _TURNED = np.array([[0, 1, 2, 3], [1, 2, 3, 0], [2, 3, 0, 1], [3, 0, 1, 2]])
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """A square that reads as a marker.
-
-    Attributes:
-        corners_px: Clockwise from the marker's own top left, shape (4, 2).
-        match: The marker.
-        is_inverted: It is printed white on black.
-        sharp_outline: How clearly the image steps across its sides, within a pixel, 0 to 1.
-    """
-
-    corners_px: Array
-    match: Match
-    is_inverted: bool
-    sharp_outline: float
-
-    @property
-    def rank(self) -> tuple[int, float]:
-        """Sorts better readings first.
-
-        Squares a few pixels off, or inside a wide border, read as well as the right one; the image
-        steps across the right one's sides only.
-        """
-        return self.match.hamming, -self.match.confidence * self.sharp_outline
 
 
 @dataclass(frozen=True)
@@ -58,17 +32,47 @@ class Rules:
     forgive_bits: int | None
     inverted: bool
 
-    def judge(
+    def markers_among(
         self,
         corners_px: Array,
-        is_bright: bool,
-        reading: Reading | None,
-        families: Sequence[MarkerFamily],
-    ) -> Candidate | str:
-        """Return the marker that a square shows, or the reason why it shows none.
+        is_bright: BoolArray,
+        readings: Readings,
+        families: Mapping[int, MarkerFamily],
+    ) -> Candidates:
+        """Return the markers that squares show, all at once.
 
         Args:
-            corners_px: The square, shape (4, 2).
+            corners_px: The squares, shape (n, 4, 2).
+            is_bright: Whether each outline is that of a bright area, shape (n,).
+            readings: How they read in the layout of the families.
+            families: Families of one layout, by their places in the detector's list.
+        """
+        is_inverted = is_bright != next(iter(families.values())).layout.white_border
+        rows = self._possible(readings, is_inverted)
+        if not len(rows):
+            return Candidates.none()
+        near = [
+            nearest_of_each(readings, rows, one, self._forgiven(one)) for one in families.values()
+        ]
+        best, passes = self._best_of_each(near)
+        which, found, k = best[passes], rows[passes], np.flatnonzero(passes)
+        quarters = np.stack([one.quarters for one in near])[which, k]
+        return Candidates(
+            np.array(list(families))[which],
+            np.stack([one.ids for one in near])[which, k],
+            readings.measures[found, 1] < 0,
+            corners_px[found[:, None], _TURNED[quarters]],
+            np.stack([one.hammings for one in near])[which, k],
+            np.stack([one.confidences for one in near])[which, k],
+            readings.measures[found, 3],
+        )
+
+    def why_not(
+        self, is_bright: bool, reading: Reading | None, families: Sequence[MarkerFamily]
+    ) -> str | None:
+        """Return the reason why a square shows no marker; None when it shows one.
+
+        Args:
             is_bright: Whether its outline is that of a bright area.
             reading: How it reads in the layout of the families.
             families: Families of one layout.
@@ -87,32 +91,7 @@ class Rules:
             )
         if match.confidence < _least_confidence(match.family):
             return f"{match.family.name} id {match.id} is too unclear ({match.confidence:.2f})"
-        return _candidate(corners_px, match, reading.contrast, reading.sharp_outline)
-
-    def markers_among(
-        self,
-        corners_px: Array,
-        is_bright: BoolArray,
-        readings: Readings,
-        families: Sequence[MarkerFamily],
-    ) -> list[Candidate]:
-        """Return the markers that squares show: those of which `judge` says so, all at once.
-
-        Args:
-            corners_px: The squares, shape (n, 4, 2).
-            is_bright: Whether each outline is that of a bright area, shape (n,).
-            readings: How they read in the layout of the families.
-            families: Families of one layout.
-        """
-        rows = self._possible(readings, is_bright != families[0].layout.white_border)
-        near = [nearest_of_each(readings, rows, one, self._forgiven(one)) for one in families]
-        best, passes = self._best_of_each(near)
-        found = [(rows[k], near[best[k]][k]) for k in np.flatnonzero(passes).tolist()]
-        contrasts, outlines = readings.measures[:, 1].tolist(), readings.measures[:, 3].tolist()
-        return [
-            _candidate(corners_px[row], match, contrasts[row], outlines[row])
-            for row, match in found
-        ]
+        return None
 
     def _best_of_each(self, near: Sequence[Matches]) -> tuple[IntArray, BoolArray]:
         """Return which of some families' matches is the best, and whether it passes, (m,) each."""
@@ -145,46 +124,7 @@ class Rules:
         return family.forgiven_bits if self.forgive_bits is None else self.forgive_bits
 
 
-def _candidate(corners_px: Array, match: Match, contrast: float, sharp_outline: float) -> Candidate:
-    return Candidate(corners_px[_TURNED[match.quarters]], match, contrast < 0, sharp_outline)
-
-
+@lru_cache
 def _least_confidence(family: MarkerFamily) -> float:
     weak = family.chance_of_random_match(wrong_bits=0) > _WEAK_CHANCE
     return _LEAST_OF_WEAK if weak else _LEAST_CONFIDENCE
-
-
-def best_per_place(candidates: Sequence[Candidate]) -> list[Candidate]:
-    """Return the best reading of each place, in an order that does not depend on chance."""
-    best_first = sorted(candidates, key=lambda c: c.rank)
-    corners_px = np.array([c.corners_px for c in best_first]).reshape(-1, 4, 2)
-    centres_px = corners_px.mean(axis=1)
-    first = np.flatnonzero(first_per_place(corners_px)).tolist()
-    names = [(best_first[i].match.family.name, best_first[i].match.id) for i in first]
-    order = sorted(zip(names, centres_px[first].tolist(), first, strict=True))
-    return [best_first[i] for _, _, i in order]
-
-
-def distinct_rejections(
-    rejections: Sequence[Rejection], detections: Sequence[Detection]
-) -> tuple[Rejection, ...]:
-    """Return one rejection per place, none where a marker was found."""
-    squares = [d.corners_px for d in detections] + [r.corners_px for r in rejections]
-    found = len(detections)
-    return tuple(rejections[i - found] for i in _first_per_place(squares) if i >= found)
-
-
-def with_duplicates_marked(detections: Sequence[Detection]) -> tuple[Detection, ...]:
-    """Flag markers whose family and id stand in the image more than once."""
-    keys = [(detection.family, detection.id) for detection in detections]
-    return tuple(
-        replace(detection, is_duplicate=True) if keys.count(key) > 1 else detection
-        for key, detection in zip(keys, detections, strict=True)
-    )
-
-
-def _first_per_place(squares_px: Sequence[Array]) -> list[int]:
-    """Return the indices of those squares (4, 2) that no earlier one stands in the place of."""
-    if not squares_px:
-        return []
-    return [int(i) for i in np.flatnonzero(first_per_place(np.stack(squares_px)))]

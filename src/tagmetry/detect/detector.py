@@ -1,36 +1,28 @@
 """The detector: from an image to identified markers with sub-pixel corners.
 
-segment (squares in the image) -> decode (which marker) -> choose (one per place) -> exact
-(where exactly).
+segment (squares in the image) -> reader (which of them are markers) -> candidates (one per place)
+-> exact (where exactly) -> report.
 """
 
-from collections.abc import Iterable, Iterator
-from functools import cached_property
+from collections.abc import Iterable
 
 import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.detect.again import NOWHERE, Box, again
-from tagmetry.detect.choose import (
-    Candidate,
-    Rules,
-    best_per_place,
-    distinct_rejections,
-    with_duplicates_marked,
-)
-from tagmetry.detect.detection import Detection, Findings, Rejection
+from tagmetry.detect.candidates import Candidates
+from tagmetry.detect.choose import Rules
+from tagmetry.detect.detection import Detection, Findings
 from tagmetry.detect.exact import exact_corners
-from tagmetry.detect.expected import expected_picture
+from tagmetry.detect.expected import expected_pictures
 from tagmetry.detect.grey import grey_8bit
-from tagmetry.detect.places import one_per_place
-from tagmetry.detect.reading.decode import read
+from tagmetry.detect.reader import Reader
+from tagmetry.detect.report import detections, distinct_rejections
 from tagmetry.detect.segment import DOUBLE_BELOW_PX, Squares, squares, squares_at_a_glance
 from tagmetry.errors import InputError
-from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import AnyPixels, BoolArray, GreyPixels
-from tagmetry.markers import Layout, MarkerFamily, family
+from tagmetry.geometry.arrays import AnyPixels, GreyPixels
+from tagmetry.markers import MarkerFamily, family
 
-_BORDER_PX = 2.0
 _LOOKS_AGAIN = 3
 
 
@@ -64,6 +56,7 @@ class Detector:
         if min_side_px is not None and not (np.isfinite(min_side_px) and min_side_px >= 4):
             raise InputError(f"min_side_px must be at least 4, got {min_side_px}")
         self.rules = Rules(forgive_bits, inverted)
+        self.reader = Reader(self.families, self.rules)
         self.min_side_px = min_side_px
 
     def detect(self, image: AnyPixels, camera: Camera | None = None) -> tuple[Detection, ...]:
@@ -75,16 +68,15 @@ class Detector:
                 makes of them.
         """
         grey = self._checked(image, camera)
-        return _detections(grey, self._candidates(grey), camera)
+        return self._detections(grey, self._candidates(grey), camera)
 
     def explain(self, image: AnyPixels, camera: Camera | None = None) -> Findings:
         """Return the markers, and the squares that were turned down, each with the reason."""
         grey = self._checked(image, camera)
         found = squares(grey, self.min_side_px or default_min_side_px(grey.size), bright=True)
-        judged = list(self._judged(grey, found))
-        candidates = [verdict for _, verdict in judged if isinstance(verdict, Candidate)]
-        rejections = [Rejection(at, reason) for at, reason in judged if isinstance(reason, str)]
-        detections = _detections(grey, best_per_place(candidates), camera)
+        candidates = self.reader.read(grey, found).candidates.best_per_place()
+        detections = self._detections(grey, candidates, camera)
+        rejections = self.reader.turned_down(grey, found)
         return Findings(detections, distinct_rejections(rejections, detections))
 
     @staticmethod
@@ -94,103 +86,40 @@ class Detector:
             camera.check_image(grey.shape[1], grey.shape[0])
         return grey
 
-    @cached_property
-    def _families_by_layout(self) -> dict[Layout, list[MarkerFamily]]:
-        grouped: dict[Layout, list[MarkerFamily]] = {}
-        for one in self.families:
-            grouped.setdefault(one.layout, []).append(one)
-        return grouped
-
-    def _candidates(self, grey: GreyPixels) -> list[Candidate]:
+    def _candidates(self, grey: GreyPixels) -> Candidates:
         """Return the markers: at a glance, then thoroughly where that is worth it."""
-        least_px = self.min_side_px or default_min_side_px(grey.size)
-        found = squares_at_a_glance(grey, least_px, bright=self._bright)
-        candidates, pictures_px = self._read(grey, found)
-        candidates = best_per_place(candidates)
+        least_px, shape = self.min_side_px or default_min_side_px(grey.size), grey.shape
+        found = squares_at_a_glance(grey, least_px, bright=self.reader.bright)
+        at_first, pictures_px = self.reader.read(grey, found)
+        candidates = at_first.best_per_place()
         looked_at, small_px = NOWHERE, least_px if least_px < DOUBLE_BELOW_PX else 0.0
         for _ in range(_LOOKS_AGAIN):
-            markers_px = np.array([one.corners_px for one in candidates]).reshape(-1, 4, 2)
-            squares_px, shape = found.corners_px, grey.shape
+            markers_px, squares_px = candidates.corners_px, found.corners_px
             box = again(markers_px, pictures_px, squares_px, shape, small_px, looked_at)
             if box is None:
                 break
-            found = self._squares_within(grey, box, least_px)
-            more, pictures_px = self._read(grey, found)
-            candidates, looked_at = best_per_place(candidates + more), box
+            found, looked_at = self._squares_within(grey, box, least_px), box
+            more, pictures_px = self.reader.read(grey, found)
+            candidates = candidates.and_also(more).best_per_place()
         return candidates
 
     def _squares_within(self, grey: GreyPixels, box: Box, least_px: float) -> Squares:
         """Return the squares of all looks in a part of an image."""
         part = np.ascontiguousarray(grey[box.rows_and_columns])
-        found = squares(part, max(least_px, box.least_px), bright=self._bright)
+        found = squares(part, max(least_px, box.least_px), bright=self.reader.bright)
         return found.moved(box.left_px, box.top_px)
 
-    @property
-    def _bright(self) -> bool:
-        """Whether bright squares on dark are looked for too."""
-        return self.rules.inverted or self._has_white_borders
-
-    @cached_property
-    def _has_white_borders(self) -> bool:
-        return any(layout.white_border for layout in self._families_by_layout)
-
-    def _judged(self, grey: GreyPixels, found: Squares) -> Iterator[tuple[Array, Candidate | str]]:
-        """Give every square, and the marker that it shows or the reason why it shows none."""
-        for layout, families in self._families_by_layout.items():
-            readings = read(grey, found.corners_px, layout)
-            for corners_px, is_bright, reading in zip(
-                found.corners_px, found.is_bright, readings, strict=True
-            ):
-                yield corners_px, self.rules.judge(corners_px, bool(is_bright), reading, families)
-
-    def _read(self, grey: GreyPixels, found: Squares) -> tuple[list[Candidate], Array]:
-        """Return the squares that read as markers, and where there is a picture in a border."""
-        candidates: list[Candidate] = []
-        pictures_px = [np.empty((0, 4, 2))]
-        for layout, families in self._families_by_layout.items():
-            here = self.rules.inverted | (found.is_bright == layout.white_border)
-            corners_px, is_bright = found.corners_px[here], found.is_bright[here]
-            readings = read(grey, corners_px, layout)
-            candidates += self.rules.markers_among(corners_px, is_bright, readings, families)
-            pictures_px.append(corners_px[readings.pictured])
-        return candidates, one_per_place(np.concatenate(pictures_px))
-
-
-def _detections(
-    grey: GreyPixels, candidates: list[Candidate], camera: Camera | None
-) -> tuple[Detection, ...]:
-    if not candidates:
-        return ()
-    corners_px = np.stack([candidate.corners_px for candidate in candidates])
-    pictures = [
-        expected_picture(grey, one.corners_px, one.match.family, one.match.id) for one in candidates
-    ]
-    refined = exact_corners(grey, corners_px, pictures, camera)
-    at_border = _touch_border(refined.corners_px, grey)
-    detections = [
-        Detection(
-            candidate.match.family.name,
-            candidate.match.id,
-            refined.corners_px[i],
-            refined.covariances_px2[i],
-            candidate.match.hamming,
-            candidate.match.confidence,
-            candidate.is_inverted,
-            bool(at_border[i]),
-        )
-        for i, candidate in enumerate(candidates)
-    ]
-    return with_duplicates_marked(detections)
+    def _detections(
+        self, grey: GreyPixels, found: Candidates, camera: Camera | None
+    ) -> tuple[Detection, ...]:
+        if not len(found):
+            return ()
+        pictures = expected_pictures(grey, found, self.families)
+        exact = exact_corners(grey, found.corners_px, pictures, camera)
+        return detections(found, exact, self.families, (grey.shape[1], grey.shape[0]))
 
 
 def default_min_side_px(pixel_count: int) -> float:
     """Return the shortest side of markers that an image is searched for unless told otherwise."""
     small_px, large_px = np.sqrt([pixel_count / 5e5, pixel_count / 2e6])
     return 8.0 * max(1.0, min(2.0, float(small_px)), float(large_px))
-
-
-def _touch_border(corners_px: Array, grey: GreyPixels) -> BoolArray:
-    """Say of each marker (n, 4, 2) whether a corner lies at the image's edge, shape (n,)."""
-    last_px = np.array([grey.shape[1] - 1, grey.shape[0] - 1])
-    near = np.minimum(corners_px, last_px - corners_px) < _BORDER_PX
-    return np.asarray(near.any(axis=(1, 2)))

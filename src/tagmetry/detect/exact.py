@@ -8,13 +8,14 @@ import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.detect.photometric import LOOK_COUNT, Picture, fit_pictures
+from tagmetry.detect.rows import Rows
 from tagmetry.detect.sides import Corners, refine
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import BoolArray, GreyPixels
+from tagmetry.geometry.arrays import GreyPixels
 
 
 @dataclass(frozen=True)
-class Exact(Corners):
+class Exact(Rows, Corners):
     """Corners of n markers, and how the markers look.
 
     Attributes:
@@ -29,22 +30,6 @@ class Exact(Corners):
         """Return no corners."""
         none = np.zeros((0, 4, 2)), np.zeros((0, 8, 8)), np.zeros(0, dtype=bool)
         return cls(*none, np.zeros((0, LOOK_COUNT)))
-
-    def and_also(self, others: Self) -> Self:
-        """Return these corners and others."""
-        if not len(others):
-            return self
-        pairs = zip(vars(self).values(), vars(others).values(), strict=True)
-        return type(self)(*(np.concatenate(pair) for pair in pairs))
-
-    def __len__(self) -> int:
-        """The number of markers."""
-        return len(self.corners_px)
-
-    def at(self, which: BoolArray) -> Self:
-        """Return some of them."""
-        covariances_px2, refined = self.covariances_px2[which], self.refined[which]
-        return type(self)(self.corners_px[which], covariances_px2, refined, self.looks[which])
 
 
 def exact_corners(

@@ -4,10 +4,12 @@ Around a black square there is white paper. Markers with bits around their borde
 stand on any ground: of these, the last whole ring of cells is the farthest that is looked at.
 """
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
 
+from tagmetry.detect.named import Named
 from tagmetry.detect.photometric import Picture
 from tagmetry.detect.reading.decode import free_colours
 from tagmetry.geometry import Array
@@ -15,6 +17,20 @@ from tagmetry.geometry.arrays import GreyPixels
 from tagmetry.markers import MarkerFamily
 
 _REMEMBERED = 4096  # markers
+
+
+def expected_pictures(
+    grey: GreyPixels, named: Named, families: Sequence[MarkerFamily]
+) -> list[Picture]:
+    """Return the pictures of markers.
+
+    Args:
+        grey: 8-bit image, which tells what stands in cells that are free.
+        named: Which markers, and where.
+        families: Of the detector.
+    """
+    each = zip(named.families.tolist(), named.ids.tolist(), named.corners_px, strict=True)
+    return [expected_picture(grey, at_px, families[place], own) for place, own, at_px in each]
 
 
 def expected_picture(

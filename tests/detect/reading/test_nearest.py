@@ -6,6 +6,7 @@ import pytest
 from tagmetry.detect.choose import Rules
 from tagmetry.detect.reading.closest import clearness, closest
 from tagmetry.detect.reading.decode import Readings
+from tagmetry.detect.reading.nearest import nearest
 from tagmetry.detect.reading.shelves import MOST_WRONG_BITS, Shelves, shelves_of
 from tagmetry.markers import MarkerFamily, family
 from tagmetry.markers.packed import packed
@@ -119,17 +120,24 @@ def test_all_at_once_are_judged_like_one_by_one(
     readings = readings_of(families)
     squares_px = RNG.uniform(0, 500, (len(readings), 4, 2))
     is_bright = RNG.random(len(readings)) < 0.4
-    found = rules.markers_among(squares_px, is_bright, readings, families)
-    verdicts = [
-        rules.judge(corners_px, bool(bright), reading, families)
-        for corners_px, bright, reading in zip(squares_px, is_bright, readings, strict=True)
+    found = rules.markers_among(squares_px, is_bright, readings, dict(enumerate(families, 3)))
+    passed = [
+        k
+        for k, (bright, reading) in enumerate(zip(is_bright, readings, strict=True))
+        if rules.why_not(bool(bright), reading, families) is None
     ]
-    expected = [one for one in verdicts if not isinstance(one, str)]
-    assert found
-    assert [one.match for one in found] == [one.match for one in expected]
-    for a, b in zip(found, expected, strict=True):
-        assert (a.is_inverted, a.sharp_outline) == (b.is_inverted, b.sharp_outline)
-        np.testing.assert_array_equal(a.corners_px, b.corners_px)
+    assert passed
+    for k, row in enumerate(passed):
+        reading = readings[row]
+        matches = [nearest(reading, one) for one in families]
+        own = matches[found.families[k] - 3]
+        assert own.hamming == min(match.hamming for match in matches)
+        read = own.id, own.hamming, own.confidence, reading.contrast < 0, reading.sharp_outline
+        told = found.ids, found.hamming, found.confidence, found.is_inverted, found.sharp_outline
+        assert read == tuple(column[k] for column in told)
+        turned_px = np.roll(squares_px[row], -own.quarters, axis=0)
+        np.testing.assert_array_equal(found.corners_px[k], turned_px)
+    assert len(found) == len(passed)
 
 
 @pytest.mark.slow

@@ -16,6 +16,7 @@ from moving_markers import (
 )
 
 from tagmetry.detect import Detector, Tracker
+from tagmetry.detect.candidates import Candidates
 from tagmetry.twin import Look
 
 
@@ -59,7 +60,7 @@ def test_a_known_motion_needs_no_search(monkeypatch: pytest.MonkeyPatch) -> None
     tracker = small_tracker()
     path = list(along(Shown(7, 50, 100), 7, x_px=25.0))
     tracked(tracker, [[one] for one in path[:3]])
-    monkeypatch.setattr(tracker._search, "candidates", lambda *_: [])
+    monkeypatch.setattr(tracker._search, "found", lambda *_: Candidates.none())
     for k in range(3, 7):
         found = tracker.track(image([path[k]], seed=k), k * STEP_S)
         assert error_px(found, path[k]) < 0.08
@@ -73,7 +74,7 @@ def test_uneven_times_do_not_disturb_it(monkeypatch: pytest.MonkeyPatch) -> None
         found = tracker.track(image([shown], seed=k), at * STEP_S)
         assert error_px(found, shown) < 0.08
         if k == 1:
-            monkeypatch.setattr(tracker._search, "candidates", lambda *_: [])
+            monkeypatch.setattr(tracker._search, "found", lambda *_: Candidates.none())
 
 
 @pytest.mark.parametrize(("smear_px", "limit_px"), [(4.0, 0.1), (8.0, 0.4), (12.0, 3.0)])

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tagmetry.detect.again.neighbours import crowded, unread
-from tagmetry.detect.places import side_lengths
+from tagmetry.detect.places import one_per_place, side_lengths
 from tagmetry.geometry import Array
 
 _UNREAD = 2  # as many other pictures for each marker are far more
@@ -79,7 +79,7 @@ def again(
         least_px: Shortest side wanted, 0 where a glance sees the smallest as well as larger ones.
         looked_at: Where it was looked again already.
     """
-    everywhere = Box(0, 0, shape[1], shape[0])
+    everywhere, pictures_px = Box(0, 0, shape[1], shape[0]), one_per_place(pictures_px)
     if looked_at.holds(everywhere) or (not len(pictures_px) and len(squares_px) > _PATTERN):
         return None
     is_small = side_lengths(markers_px) < _SMALL * least_px

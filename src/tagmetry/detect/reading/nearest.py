@@ -46,10 +46,15 @@ class Matches:
     hammings: IntArray
     confidences: Array
 
-    def __getitem__(self, k: int) -> Match:
-        quarters, marker_id = divmod(int(self.indices[k]), len(self.family))
-        hamming, confidence = int(self.hammings[k]), float(self.confidences[k])
-        return Match(self.family, marker_id, quarters, hamming, confidence)
+    @property
+    def ids(self) -> IntArray:
+        """The nearest markers, shape (m,)."""
+        return self.indices % len(self.family)
+
+    @property
+    def quarters(self) -> IntArray:
+        """By how many quarters clockwise each is turned against its quadrilateral, shape (m,)."""
+        return self.indices // len(self.family)
 
 
 def nearest(reading: Reading, family: MarkerFamily) -> Match:
@@ -59,8 +64,8 @@ def nearest(reading: Reading, family: MarkerFamily) -> Match:
     share = bits / (bits + _frame_cells(family))
     clear = clearness(reading.margins, family.packed_codes[index])
     confidence = share * clear + (1 - share) * reading.border_margin
-    indices, hammings = np.array([index]), np.array([hamming])
-    return Matches(family, indices, hammings, np.clip([confidence], 0, 1))[0]
+    quarters, marker_id = divmod(index, len(family))
+    return Match(family, marker_id, quarters, hamming, min(max(confidence, 0.0), 1.0))
 
 
 def nearest_of_each(

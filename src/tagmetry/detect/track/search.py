@@ -1,71 +1,119 @@
-"""Markers in a part of an image, as a detector finds them, but for their exact corners."""
-
-from collections.abc import Sequence
+"""The search for markers that are not followed: around lost ones, and for new ones part by part."""
 
 import cv2
 import numpy as np
 
-from tagmetry.detect.choose import Candidate, Rules, best_per_place
+from tagmetry.detect.candidates import Candidates
+from tagmetry.detect.detector import Detector, default_min_side_px
 from tagmetry.detect.places import in_places
-from tagmetry.detect.reading.decode import read
-from tagmetry.detect.segment import Squares, squares, squares_in_turn
+from tagmetry.detect.reader import Reader
+from tagmetry.detect.segment import TURNS, Squares, squares, squares_in_turn
 from tagmetry.detect.track.greyed import Greyed
-from tagmetry.detect.track.hunt import Part
+from tagmetry.detect.track.hunt import Part, parts_around, turn_part, whole
+from tagmetry.detect.track.known import Known
+from tagmetry.detect.track.rota import Rota
+from tagmetry.detect.track.strips import Turn, turns
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels
-from tagmetry.markers import Layout, MarkerFamily
 
 _LEAST_PART_PX = 8
 
 
 class Search:
-    """Looks for markers in parts of an image.
+    """Says what is searched in which image, and finds the markers there.
 
     Args:
-        families: What is looked for.
-        rules: What passes for a marker.
+        detector: What to look for.
+        strips: Into how many strips of rows the image is cut to look for new small markers.
+        acquire_s: How soon all of the image is to be searched.
     """
 
-    def __init__(self, families: Sequence[MarkerFamily], rules: Rules) -> None:
-        self._rules = rules
-        self._by_layout: dict[Layout, list[MarkerFamily]] = {}
-        for one in families:
-            self._by_layout.setdefault(one.layout, []).append(one)
-        self._bright = rules.inverted or any(layout.white_border for layout in self._by_layout)
+    def __init__(self, detector: Detector, strips: int, acquire_s: float) -> None:
+        self._detector, self._strips, self._acquire_s = detector, strips, acquire_s
+        self._rota: Rota | None = None
 
-    def candidates(self, image: Greyed, part: Part, known_px: Array) -> list[Candidate]:
-        """Return the markers in a part of an image, in the image's pixels.
+    def begin_anew(self) -> None:
+        """Look at all of the next image."""
+        self._rota = None
+
+    def plan(self, size_px: tuple[int, int]) -> tuple[Turn, ...]:
+        """Return the turns of the search in images of a size, (width, height)."""
+        return turns(size_px[1], self._least_px(size_px), self._strips)
+
+    def parts(
+        self,
+        known: Known,
+        is_lost: BoolArray,
+        size_px: tuple[int, int],
+        time_s: float,
+        since_s: float,
+    ) -> list[Part]:
+        """Return what is searched in an image; the rota moves on.
+
+        Args:
+            known: The markers that are looked for, n.
+            is_lost: Which were not seen where they should be, shape (n,).
+            size_px: (width, height) of the image.
+            time_s: Its time.
+            since_s: Time since the image before.
+        """
+        around = parts_around(known, is_lost, size_px, self._least_px(size_px))
+        return around + self._new_parts(size_px, time_s, since_s)
+
+    def found(self, image: Greyed, parts: list[Part], known_px: Array) -> Candidates:
+        """Return the markers in parts of an image, in the image's pixels.
 
         Args:
             image: The image.
-            part: Which part, and at what scale.
+            parts: Where, and at what scale.
             known_px: Squares whose places are not looked at, shape (n, 4, 2).
         """
-        left, top, right, bottom = part.box
-        if min(right - left, bottom - top) * part.scale < _LEAST_PART_PX:
+        found = Candidates.none()
+        for part in parts:
+            found = found.and_also(_found_in(image, part, self._detector.reader, known_px))
+        return found.best_per_place()
+
+    def _new_parts(self, size_px: tuple[int, int], time_s: float, since_s: float) -> list[Part]:
+        """Return what is searched for new markers: all, one part or none; the rota moves on."""
+        if self._rota is None:
+            self._rota = Rota.begun(time_s)
+            return [whole(size_px, self._least_px(size_px))]
+        if time_s < self._rota.due_s:
             return []
-        grey = _scaled(image.look_at(part.box[None])[top:bottom, left:right], part.scale)
-        found = self._squares(grey, part.scale * part.least_px, part.looks)
-        corners_px = (found.corners_px + 0.5) / part.scale - 0.5 + [left, top]
-        free = ~in_places(corners_px, known_px)
-        judged = self._judged(image.grey, corners_px[free], found.is_bright[free])
-        return best_per_place(judged)
+        plan = self.plan(size_px)
+        rounds, place = divmod(self._rota.turn, len(plan))
+        self._rota = self._rota.after(time_s, since_s, self._acquire_s, len(plan))
+        return [turn_part(plan[place], size_px[0], rounds % TURNS)]
 
-    def _squares(self, grey: GreyPixels, least_px: float, looks: int | None) -> Squares:
-        if looks is None:
-            return squares(grey, least_px, bright=self._bright)
-        return squares_in_turn(grey, least_px, looks, bright=self._bright)
+    def _least_px(self, size_px: tuple[int, int]) -> float:
+        return self._detector.min_side_px or default_min_side_px(size_px[0] * size_px[1])
 
-    def _judged(self, grey: GreyPixels, corners_px: Array, is_bright: BoolArray) -> list[Candidate]:
-        """Read squares in every layout."""
-        candidates: list[Candidate] = []
-        for layout, families in self._by_layout.items():
-            here = self._rules.inverted | (is_bright == layout.white_border)
-            readings = read(grey, corners_px[here], layout)
-            candidates += self._rules.markers_among(
-                corners_px[here], is_bright[here], readings, families
-            )
-        return candidates
+
+def _found_in(image: Greyed, part: Part, reader: Reader, known_px: Array) -> Candidates:
+    """Return the markers in a part of an image, in the image's pixels.
+
+    Args:
+        image: The image.
+        part: Which part, and at what scale.
+        reader: What is looked for.
+        known_px: Squares whose places are not looked at, shape (n, 4, 2).
+    """
+    left, top, right, bottom = part.box.tolist()
+    if min(right - left, bottom - top) * part.scale < _LEAST_PART_PX:
+        return Candidates.none()
+    grey = _scaled(image.look_at(part.box[None])[top:bottom, left:right], part.scale)
+    found = _squares(grey, part, bright=reader.bright)
+    corners_px = (found.corners_px + 0.5) / part.scale - 0.5 + [left, top]
+    free = ~in_places(corners_px, known_px)
+    return reader.read(image.grey, Squares(corners_px[free], found.is_bright[free])).candidates
+
+
+def _squares(grey: GreyPixels, part: Part, *, bright: bool) -> Squares:
+    """Return the squares of a part, in its own pixels."""
+    least_px = part.scale * part.least_px
+    if part.looks is None:
+        return squares(grey, least_px, bright=bright)
+    return squares_in_turn(grey, least_px, part.looks, bright=bright)
 
 
 def _scaled(part: GreyPixels, scale: float) -> GreyPixels:

@@ -6,6 +6,7 @@ marker that they are for, whichever way it is turned.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 _SMALL_BELOW_PX = 32.0  # sides
@@ -34,6 +35,7 @@ class Turn:
     scale: float
 
 
+@lru_cache
 def turns(height_px: int, least_px: float, strips: int) -> tuple[Turn, ...]:
     """Return what is looked for in one image after another, until it begins anew.
 

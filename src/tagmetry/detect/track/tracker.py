@@ -7,37 +7,31 @@ What is reported was read and measured in this image alone. The past only says w
 errors of one image do not reach the next, and a marker that is covered is not reported.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import partial
 
 import numpy as np
 
 from tagmetry.camera import Camera
-from tagmetry.detect.choose import best_per_place
 from tagmetry.detect.detection import Detection
-from tagmetry.detect.detector import Detector, default_min_side_px
-from tagmetry.detect.exact import Exact, exact_corners
-from tagmetry.detect.expected import expected_picture
-from tagmetry.detect.photometric import LOOK_COUNT
-from tagmetry.detect.segment import TURNS
+from tagmetry.detect.detector import Detector
+from tagmetry.detect.exact import Exact
+from tagmetry.detect.report import detections
 from tagmetry.detect.track.claims import claimed
 from tagmetry.detect.track.expected import as_expected
 from tagmetry.detect.track.followed import followed
 from tagmetry.detect.track.greyed import Greyed
-from tagmetry.detect.track.hunt import Part, parts_around, turn_part, whole
+from tagmetry.detect.track.hunt import Part
 from tagmetry.detect.track.known import Announced, Known, known_at
-from tagmetry.detect.track.lost import Lost
-from tagmetry.detect.track.motion import predicted
-from tagmetry.detect.track.report import detections
-from tagmetry.detect.track.rota import Rota
+from tagmetry.detect.track.lost import Lost, lost_of
+from tagmetry.detect.track.measured import measured
 from tagmetry.detect.track.search import Search
 from tagmetry.detect.track.seen import Seen
-from tagmetry.detect.track.strips import turns
 from tagmetry.detect.track.tracks import Tracks
 from tagmetry.detect.workers import both
 from tagmetry.errors import InputError
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import AnyPixels, BoolArray
+from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.markers import MarkerFamily
 
 
@@ -79,14 +73,14 @@ class Tracker:
         self.acquire_s = acquire_s
         self.forget_s = forget_s
         self.fastest_px_s = fastest_px_s
-        self._search = Search(self.detector.families, self.detector.rules)
+        self._search = Search(self.detector, strips, acquire_s)
         self._announced: list[Announced] = []
         self.reset()
 
     def reset(self) -> None:
         """Forget everything: the next image may be of another time, camera or place."""
         self._tracks = Tracks.none()
-        self._rota = Rota.begun(0.0)
+        self._search.begin_anew()
         self._time_s: float | None = None
         self._size_px: tuple[int, int] | None = None
 
@@ -96,17 +90,7 @@ class Tracker:
         if self._time_s is None:
             return ()
         lost = self._tracks.at(self._tracks.seen_s < self._time_s)
-        where = predicted(lost, self._time_s, self.fastest_px_s)
-        return tuple(
-            Lost(
-                self.detector.families[lost.families[i]].name,
-                int(lost.ids[i]),
-                where.corners_px[i],
-                float(where.deviation_px[i]),
-                float(self._time_s - lost.seen_s[i]),
-            )
-            for i in range(len(lost))
-        )
+        return lost_of(lost, self.detector.families, self._time_s, self.fastest_px_s)
 
     def images_to_acquire(self, width_px: int, height_px: int) -> int:
         """Return in how many images of a size, one part each, all of it is searched.
@@ -116,7 +100,7 @@ class Tracker:
         that a glance finds. Those with faint borders, or that touch what is beside them, take four
         times as long at most: the looks that they need take turns.
         """
-        return len(turns(height_px, self._least_px((width_px, height_px)), self.strips))
+        return len(self._search.plan((width_px, height_px)))
 
     def expect(
         self,
@@ -166,8 +150,8 @@ class Tracker:
         since_s = self._since_s(size_px, time_s)
         known = known_at(self._tracks, self._announced, time_s, since_s, self.fastest_px_s)
         expected = as_expected(looked_at, families, self.detector.rules, known)
-        around = parts_around(known, _lost(known, expected), size_px, self._least_px(size_px))
-        parts = [*around, *self._new_parts(size_px, time_s, since_s)]
+        is_lost = expected.others(len(known.tracks))
+        parts = self._search.parts(known, is_lost, size_px, time_s, since_s)
         seen, exact = self._searched_and_measured(looked_at, known, expected, parts, camera)
         self._tracks = followed(known, seen, exact, time_s, self.forget_s)
         self._time_s, self._size_px = time_s, size_px
@@ -179,7 +163,7 @@ class Tracker:
         looked_at: Greyed,
         known: Known,
         expected: Seen,
-        parts: Sequence[Part],
+        parts: list[Part],
         camera: Camera | None,
     ) -> tuple[Seen, Exact]:
         """Return the markers that are reported, with their exact corners.
@@ -188,14 +172,15 @@ class Tracker:
         another thread searches for others.
         """
         looks, families = known.tracks.looks[expected.rows], self.detector.families
-        measure = partial(_measured, looked_at, expected, looks, families, camera)
+        measure = partial(measured, looked_at.grey, expected, families, camera, looks)
         if not parts:  # no thread need be woken
             exact = measure()
             return expected.at(exact.refined), exact.at(exact.refined)
-        found, exact = both(partial(self._found, looked_at, known, expected, parts), measure)
-        unknown = np.full((len(found), LOOK_COUNT), np.nan)
-        also = _measured(looked_at, found, unknown, families, camera)
-        seen = expected.at(exact.refined).and_also(found)
+        search = partial(self._search.found, looked_at, parts, expected.corners_px)
+        found, exact = both(search, measure)
+        new = claimed(found, known, expected.others(len(known.tracks)))
+        also = measured(looked_at.grey, new, families, camera)
+        seen = expected.at(exact.refined).and_also(new)
         return seen, exact.at(exact.refined).and_also(also)
 
     def _checked(self, image: AnyPixels, time_s: float, camera: Camera | None) -> Greyed:
@@ -219,54 +204,3 @@ class Tracker:
                 return since_s
         self.reset()
         return 0.0
-
-    def _new_parts(self, size_px: tuple[int, int], time_s: float, since_s: float) -> list[Part]:
-        """Return what is searched for new markers: all, one part or none; the rota moves on."""
-        if self._time_s is None:
-            self._rota = Rota.begun(time_s)
-            return [whole(size_px, self._least_px(size_px))]
-        if time_s < self._rota.due_s:
-            return []
-        plan = turns(size_px[1], self._least_px(size_px), self.strips)
-        rounds, place = divmod(self._rota.turn, len(plan))
-        self._rota = self._rota.after(time_s, since_s, self.acquire_s, len(plan))
-        return [turn_part(plan[place], size_px[0], rounds % TURNS)]
-
-    def _found(
-        self, looked_at: Greyed, known: Known, expected: Seen, parts: Sequence[Part]
-    ) -> Seen:
-        """Return the markers that searching finds beside those that were seen where expected."""
-        found = [
-            one
-            for part in parts
-            for one in self._search.candidates(looked_at, part, expected.corners_px)
-        ]
-        lost = _lost(known, expected)
-        return claimed(best_per_place(found), known, lost, self.detector.families)
-
-    def _least_px(self, size_px: tuple[int, int]) -> float:
-        return self.detector.min_side_px or default_min_side_px(size_px[0] * size_px[1])
-
-
-def _lost(known: Known, expected: Seen) -> BoolArray:
-    """Say which of the n markers that are looked for were not seen where expected, shape (n,)."""
-    is_lost = np.ones(len(known.tracks), dtype=bool)
-    is_lost[expected.rows] = False
-    return is_lost
-
-
-def _measured(
-    looked_at: Greyed,
-    seen: Seen,
-    looks: Array,
-    families: Sequence[MarkerFamily],
-    camera: Camera | None,
-) -> Exact:
-    """Return where exactly markers are; how they looked in the image before has shape (m, 10)."""
-    if not len(seen):
-        return Exact.nothing()
-    pictures = [
-        expected_picture(looked_at.grey, seen.corners_px[i], families[place], int(seen.ids[i]))
-        for i, place in enumerate(seen.families.tolist())
-    ]
-    return exact_corners(looked_at.grey, seen.corners_px, pictures, camera, looks)

@@ -6,12 +6,13 @@ from typing import Self
 import numpy as np
 
 from tagmetry.detect.photometric import LOOK_COUNT
+from tagmetry.detect.rows import Rows
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)
-class Tracks:
+class Tracks(Rows):
     """n markers, a row each.
 
     Attributes:
@@ -41,10 +42,6 @@ class Tracks:
     is_new: BoolArray
     missed: IntArray
     looks: Array
-
-    def __len__(self) -> int:
-        """The number of markers."""
-        return len(self.ids)
 
     @classmethod
     def begun(
@@ -76,14 +73,3 @@ class Tracks:
         """Return no markers."""
         nothing = np.zeros(0, dtype=np.int64)
         return cls.begun(nothing, nothing, nothing > 0, np.zeros((0, 4, 2)), 0.0)
-
-    def at(self, rows: IntArray | BoolArray) -> Self:
-        """Return some of the markers."""
-        return type(self)(*(values[rows] for values in vars(self).values()))
-
-    def and_also(self, others: Self) -> Self:
-        """Return these markers and others."""
-        if not len(others):
-            return self
-        pairs = zip(vars(self).values(), vars(others).values(), strict=True)
-        return type(self)(*(np.concatenate(pair) for pair in pairs))
