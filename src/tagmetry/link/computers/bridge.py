@@ -18,7 +18,15 @@ from tagmetry.link.computers.net import Net
 from tagmetry.link.computers.stand_ins import StandIns
 from tagmetry.link.computers.topics import Topics, checked_name
 from tagmetry.link.host import now_us
-from tagmetry.link.messages import KINDS, ArenaState, Beat, Command, Neighbours, State
+from tagmetry.link.messages import (
+    KINDS,
+    ArenaState,
+    Beat,
+    Command,
+    Neighbours,
+    PackedNeighbours,
+    State,
+)
 from tagmetry.link.wire import BEAT_US
 
 _MOST_AT_ONCE = 256
@@ -97,7 +105,7 @@ class ArenaBridge(Closing):
         with self._lock:
             return self._stand_ins.command(robot_id, now_us())
 
-    def tell(self, robot_id: int, message: State | Neighbours | Command) -> None:
+    def tell(self, robot_id: int, message: State | Neighbours | PackedNeighbours | Command) -> None:
         """Tell all what is known of a robot.
 
         Raises:

@@ -9,7 +9,7 @@ from tagmetry.link.computers import ArenaBridge, state_message
 from tagmetry.link.computers.sight import STOPPED
 from tagmetry.link.messages import ArenaState
 from tagmetry.pipeline.arena.measurement import ArenaMeasurement, ArenaResult, image_time_s
-from tagmetry.pipeline.arena.messages import command_message, microseconds, neighbours_message
+from tagmetry.pipeline.arena.messages import command_message, microseconds, neighbours_messages
 
 _HELD = Command(valid_for_ms=0)
 _COUNTS = 2**32
@@ -35,9 +35,10 @@ class BridgeTaker:
         """Tell what one image tells."""
         moment_us = microseconds(result.taken_s + result.world.time_s - image_time_s(result.image))
         self._tell_commands(result)
-        for told in result.told:
-            range_m = self._ranges_m.get(told.robot_id, self._range_m)
-            self._bridge.tell(told.robot_id, neighbours_message(told, range_m, result.taken_s))
+        ranges_m = [self._ranges_m.get(one.robot_id, self._range_m) for one in result.told]
+        sensed = neighbours_messages(result.told, ranges_m, result.taken_s)
+        for told, message in zip(result.told, sensed, strict=True):
+            self._bridge.tell(told.robot_id, message)
         held = {one.robot_id for one in result.decisions if one.must_stop}
         for state in result.world:
             told_state = state_message(state, moment_us, must_stand=state.id in held)
