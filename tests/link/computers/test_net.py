@@ -114,6 +114,7 @@ def test_what_is_told_is_heard_where_it_belongs() -> None:
         def said() -> bool:
             here.tell("tagmetry/lab/robots/a b/pose", b"\x00\xff", is_urgent=True)
             here.tell("tagmetry/other/robots/a b/pose", b"other")
+            here.tell("tagmetry/lab/robots/a b/pose", bytes(1201))
             return bool(heard)
 
         until(said)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from tagmetry.closing import Closing
 from tagmetry.errors import InputError, MissingExtraError
+from tagmetry.link.wire import MOST_BYTES
 
 if TYPE_CHECKING:
     from zenoh import Session
@@ -59,12 +60,16 @@ class Net(Closing):
         return True
 
     def hear(self, topics: Sequence[str], take: Take) -> None:
-        """Hand topic and content of all packets on, from threads of the net; `take` never waits."""
+        """Hand topic and content of all packets on, from threads of the net; `take` never waits.
+
+        What is longer than any packet is passed over, so that nobody fills a queue with it.
+        """
         from zenoh import Sample
         from zenoh.handlers import Callback
 
         def hand_on(sample: Sample) -> None:
-            take(str(sample.key_expr), bytes(sample.payload))
+            if len(sample.payload) <= MOST_BYTES:
+                take(str(sample.key_expr), bytes(sample.payload))
 
         for topic in topics:
             self._session.declare_subscriber(topic, Callback(hand_on, indirect=False))
