@@ -11,8 +11,9 @@ from tagmetry.link.computers.broadcast import Broadcast
 from tagmetry.link.computers.keys import ARENA_ID, OPEN_KEY
 from tagmetry.link.computers.onlooker import Onlooker
 from tagmetry.link.computers.sight import Gathering, robot_state, state_message
+from tagmetry.link.layout import Kind
 from tagmetry.link.messages import ArenaState, Beat, Command, Neighbours, State
-from tagmetry.link.packet import Refusal
+from tagmetry.link.packet import Header, Refusal, body_of, seal
 
 KEY = bytes(range(32))
 AHEAD_US = 700_000_000  # the onlooker's clock minus the host's
@@ -113,6 +114,27 @@ def test_an_answer_that_took_too_long_bounds_no_clock() -> None:
     air = Air()
     air.greet(delay_us=200_000)
     assert air.why_not(air.say()) is Refusal.SESSION
+
+
+def test_a_forged_answer_to_this_very_greeting_is_refused() -> None:
+    air, forger = Air(), Broadcast(OPEN_KEY, count(6_000_000_000).__next__)
+    hello = air.onlooker.due(air.here_us)
+    assert hello is not None
+    read = body_of(hello)  # nothing in it is secret
+    greeting = seal(OPEN_KEY, Header(Kind.HELLO, ARENA_ID, 0, 0, 0), read)
+    answer = forger.answer(greeting, air.host_us)
+    assert answer is not None
+    assert air.onlooker.hear(answer, "host", air.here_us) is None
+    assert air.onlooker.refused == {Refusal.TAG: 1}
+    assert air.why_not(forger.seal(3, STATE, air.host_us)) is Refusal.SESSION
+
+
+def test_the_hello_of_a_robot_is_not_answered(air: Air) -> None:
+    hello = air.onlooker.due(air.here_us + 2_000_000)
+    assert hello is not None
+    assert air.broadcast.answer(hello, air.host_us) is not None
+    of_robot = seal(KEY, Header(Kind.HELLO, 3, 0, 0, 0), body_of(hello))
+    assert air.broadcast.answer(of_robot, air.host_us) is None
 
 
 def test_another_key_opens_nothing() -> None:
