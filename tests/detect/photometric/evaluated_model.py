@@ -6,6 +6,7 @@ from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.evaluate import evaluate
 from tagmetry.detect.photometric.ink import changes
 from tagmetry.detect.photometric.pixels import set_windows
+from tagmetry.detect.photometric.values import narrowed
 from tagmetry.detect.photometric.view import View
 from tagmetry.geometry import Array
 
@@ -16,7 +17,9 @@ _NO_GREY = np.zeros((1, 1), dtype=np.uint8)
 def evaluated(fit: Array, ink: Array, places: Array, edges: int) -> tuple[Array, Array]:
     """Return the grey values of places, (n,), and their derivatives by the fit, (n, 23)."""
     count = len(places)
-    room, pixels = row.new_room(), np.zeros((-(-count // row.BLOCK), row.READ), dtype=np.float32)
+    room = row.new_room()
+    equations = room[row.EQUATIONS :]
+    pixels = np.zeros((-(-count // row.BLOCK), row.READ), dtype=np.float32)
     for k, (x, y) in enumerate(places):
         block, p = pixels[k // row.BLOCK], k % row.BLOCK
         block[row.X + p], block[row.Y + p] = x, y
@@ -25,8 +28,8 @@ def evaluated(fit: Array, ink: Array, places: Array, edges: int) -> tuple[Array,
     values, by_fit = [], []
     for block in pixels:
         room[: row.READ] = block
-        evaluate(room, fit.astype(np.float32), edges, _NO_NOISE_LIMIT, len(fit))
-        values.append(-room[row.RESIDUAL : row.RESIDUAL + row.BLOCK].astype(np.float64))
-        end = row.J + len(fit) * row.BLOCK
-        by_fit.append(room[row.J : end].reshape(len(fit), row.BLOCK).T.copy())
+        evaluate(room, equations, narrowed(fit), edges, _NO_NOISE_LIMIT, len(fit))
+        lines = equations.reshape(row.MOST_NUMBERS, row.LANES)[:, : row.BLOCK].astype(np.float64)
+        values.append(-lines[0])
+        by_fit.append(lines[1 : 1 + len(fit)].T)
     return np.concatenate(values)[:count], np.concatenate(by_fit)[:count]

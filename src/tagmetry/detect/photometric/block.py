@@ -10,9 +10,10 @@ import numpy as np
 from tagmetry.detect.photometric.kernel import Narrow, kernel
 
 BLOCK = 64  # pixels
+LANES = 4 * BLOCK  # equations that are summed at once: adding up lanes takes time, too
 MOST_EDGES = 5  # of one direction, within reach of a pixel
 _WINDOW = MOST_EDGES + 1
-MOST_NUMBERS = 24  # that are fitted, and the residual
+MOST_NUMBERS = 24  # that are fitted, and the residual; whole vectors
 
 
 def _rows(first: int, *counts: int) -> tuple[int, ...]:
@@ -35,9 +36,14 @@ CORRELATION, WHITE, BY_U, BY_V, BY_BLUR_U, BY_BLUR_V, BY_CORRELATION, _WHITE = _
     _STEPS, *7 * [1]
 )
 
-# The residual and the derivatives of the value by the numbers, times the root of the weight.
-SIZE, BY_WHITE, RESIDUAL, J, _END = _rows(_WHITE, 1, 1, 1, MOST_NUMBERS)
-ROOM = _END
+# Sizes of residuals, derivatives by the whiteness.
+SIZE, BY_WHITE, EQUATIONS = _rows(_WHITE, 1, 1)
+
+# Equations of pixels: the residual and its derivatives by the numbers, times the weight's root.
+# They follow in the same memory: to a processor, places whole pages apart look like the same, and
+# a row that is written must not look as if it began just before one that is read.
+RESIDUAL, J = 0, LANES
+ROOM = EQUATIONS + MOST_NUMBERS * LANES
 
 
 @kernel
@@ -48,7 +54,7 @@ def new_pixels(blocks: int) -> Narrow:
 
 @kernel
 def new_room() -> Narrow:
-    """Return room for one block."""
+    """Return room for one block, and for the equations of some."""
     room = np.zeros(ROOM, dtype=np.float32)
     room[STEP_U : STEP_U + BLOCK] = 1.0
     room[STEP_V : STEP_V + BLOCK] = 1.0

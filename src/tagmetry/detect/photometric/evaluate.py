@@ -17,12 +17,15 @@ from tagmetry.detect.photometric.whiteness import write_whiteness
 
 
 @kernel
-def evaluate(room: Narrow, fit: Narrow, edges: int, noise: float, count: int) -> None:
+def evaluate(
+    room: Narrow, equations: Narrow, fit: Narrow, edges: int, noise: float, count: int
+) -> None:
     """Write the weighted residuals of a block, and their derivatives by `count` numbers.
 
     Args:
         room: The block, see `block`.
-        fit: The numbers, of 32 bits.
+        equations: Written, from the block's first one on.
+        fit: The numbers, from `narrowed`.
         edges: How many edges of each direction a pixel sees.
         noise: Grey values; residuals far beyond count less.
         count: 10, 18 or 23.
@@ -30,13 +33,12 @@ def evaluate(room: Narrow, fit: Narrow, edges: int, noise: float, count: int) ->
     write_cells(room, fit)
     _write_blurs(room, fit)
     write_whiteness(room, edges)
-    write_values(room, fit, noise)
-    _weigh(room)
-    _write_by_homography(room)
+    write_values(room, equations, fit, noise)
+    _write_by_homography(room, equations)
     if count > SLOPES:
-        _write_by_blur(room)
+        _write_by_blur(room, equations)
     if count > BOWS:
-        _write_by_bows(room)
+        _write_by_bows(room, equations)
 
 
 @kernel
@@ -73,63 +75,55 @@ def _write_blurs(room: Narrow, fit: Narrow) -> None:
 
 
 @kernel
-def _weigh(room: Narrow) -> None:
-    """Turn slopes of the whiteness per blur into those of the weighted value per cell."""
-    for p in range(row.BLOCK):
-        by_white = room[row.BY_WHITE + p]
-        by_u, by_v = by_white * room[row.SHARP_U + p], by_white * room[row.SHARP_V + p]
-        room[row.BY_U + p] *= by_u
-        room[row.BY_V + p] *= by_v
-        room[row.BY_BLUR_U + p] *= by_u
-        room[row.BY_BLUR_V + p] *= by_v
-        room[row.BY_CORRELATION + p] *= by_white
-
-
-@kernel
-def _write_by_homography(room: Narrow) -> None:
+def _write_by_homography(room: Narrow, equations: Narrow) -> None:
+    """Write derivatives by the homography; leave the slopes of the weighted value per cell."""
     first = row.J
     for p in range(row.BLOCK):
         x, y, down = room[row.BENT_X + p], room[row.BENT_Y + p], room[row.DOWN + p]
-        by_u, by_v = down * room[row.BY_U + p], down * room[row.BY_V + p]
+        by_u = room[row.BY_WHITE + p] * room[row.SHARP_U + p] * room[row.BY_U + p]
+        by_v = room[row.BY_WHITE + p] * room[row.SHARP_V + p] * room[row.BY_V + p]
+        room[row.BY_U + p], room[row.BY_V + p] = by_u, by_v
+        by_u, by_v = down * by_u, down * by_v
         back = -(by_u * room[row.U + p] + by_v * room[row.V + p])
-        room[first + p] = by_u * x
-        room[first + row.BLOCK + p] = by_u * y
-        room[first + 2 * row.BLOCK + p] = by_u
-        room[first + 3 * row.BLOCK + p] = by_v * x
-        room[first + 4 * row.BLOCK + p] = by_v * y
-        room[first + 5 * row.BLOCK + p] = by_v
-        room[first + 6 * row.BLOCK + p] = back * x
-        room[first + 7 * row.BLOCK + p] = back * y
+        equations[first + p] = by_u * x
+        equations[first + row.LANES + p] = by_u * y
+        equations[first + 2 * row.LANES + p] = by_u
+        equations[first + 3 * row.LANES + p] = by_v * x
+        equations[first + 4 * row.LANES + p] = by_v * y
+        equations[first + 5 * row.LANES + p] = by_v
+        equations[first + 6 * row.LANES + p] = back * x
+        equations[first + 7 * row.LANES + p] = back * y
 
 
 @kernel
-def _write_by_blur(room: Narrow) -> None:
-    first = row.J + BLUR * row.BLOCK
+def _write_by_blur(room: Narrow, equations: Narrow) -> None:
+    first = row.J + BLUR * row.LANES
     for p in range(row.BLOCK):
         ux, uy, vx, vy = room[row.UX + p], room[row.UY + p], room[row.VX + p], room[row.VY + p]
         sharp_u, sharp_v = room[row.SHARP_U + p], room[row.SHARP_V + p]
+        by_white = room[row.BY_WHITE + p]
         turning = room[row.BY_CORRELATION + p]
         lost = turning * room[row.CORRELATION + p]
-        by_uu = f32(0.5) * sharp_u * (room[row.BY_BLUR_U + p] - lost * sharp_u)
-        by_vv = f32(0.5) * sharp_v * (room[row.BY_BLUR_V + p] - lost * sharp_v)
-        by_uv = turning * sharp_u * sharp_v
-        room[first + p] = by_uu * ux * ux + by_vv * vx * vx + by_uv * ux * vx
-        room[first + row.BLOCK + p] = f32(2) * (by_uu * ux * uy + by_vv * vx * vy) + by_uv * (
+        by_uu = f32(0.5) * by_white * sharp_u * sharp_u * (room[row.BY_BLUR_U + p] - lost)
+        by_vv = f32(0.5) * by_white * sharp_v * sharp_v * (room[row.BY_BLUR_V + p] - lost)
+        by_uv = by_white * turning * sharp_u * sharp_v
+        equations[first + p] = by_uu * ux * ux + by_vv * vx * vx + by_uv * ux * vx
+        equations[first + row.LANES + p] = f32(2) * (by_uu * ux * uy + by_vv * vx * vy) + by_uv * (
             ux * vy + uy * vx
         )
-        room[first + 2 * row.BLOCK + p] = by_uu * uy * uy + by_vv * vy * vy + by_uv * uy * vy
+        equations[first + 2 * row.LANES + p] = by_uu * uy * uy + by_vv * vy * vy + by_uv * uy * vy
 
 
 @kernel
-def _write_by_bows(room: Narrow) -> None:
-    first = row.J + BOWS * row.BLOCK
+def _write_by_bows(room: Narrow, equations: Narrow) -> None:
+    first = row.J + BOWS * row.LANES
     for p in range(row.BLOCK):
         x, y, by_u, by_v = room[row.X + p], room[row.Y + p], room[row.BY_U + p], room[row.BY_V + p]
         by_x = by_u * room[row.UX + p] + by_v * room[row.VX + p]
         by_y = by_u * room[row.UY + p] + by_v * room[row.VY + p]
         far, saddle, twist = x * x + y * y - f32(1), x * x - y * y, f32(2) * x * y
-        room[first + p] = far * by_x
-        room[first + row.BLOCK + p] = far * by_y
-        room[first + 2 * row.BLOCK + p] = saddle * by_x - twist * by_y
-        room[first + 3 * row.BLOCK + p] = twist * by_x + saddle * by_y
-        room[first + 4 * row.BLOCK + p] = far * (by_x * x + by_y * y)
+        equations[first + p] = far * by_x
+        equations[first + row.LANES + p] = far * by_y
+        equations[first + 2 * row.LANES + p] = saddle * by_x - twist * by_y
+        equations[first + 3 * row.LANES + p] = twist * by_x + saddle * by_y
+        equations[first + 4 * row.LANES + p] = far * (by_x * x + by_y * y)

@@ -6,12 +6,13 @@ from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.evaluate import evaluate
 from tagmetry.detect.photometric.kernel import Narrow, kernel, step
 from tagmetry.detect.photometric.model import BLACK, BLUR, EXPONENT, SLOPES, cell_px
+from tagmetry.detect.photometric.noise import LEAST_NOISE, count_sizes, new_counts, noise_of
 from tagmetry.detect.photometric.normal import add_products, factor, solve
+from tagmetry.detect.photometric.values import narrowed
 from tagmetry.detect.photometric.view import View
 from tagmetry.geometry import Array
 
-LEAST_NOISE = 0.3  # grey values: that of rounding
-_JUDGED = 256  # pixels whose median residual tells the noise
+_JUDGED = 256  # pixels, about, whose residuals tell the noise
 _PRIOR_EXPONENT = 0.7  # of its logarithm
 _PRIOR_BLUR = 1.0  # of its variances, as a share
 _PRIOR_SLOPE = 0.3  # of light, across half a diagonal
@@ -49,17 +50,15 @@ def fit_pixels(
         The noise; how far the picture moved in the last round (px), infinite where there is no
         solution; the factor of the normal matrix and its scale, see `factor`.
     """
-    L, scale = np.zeros((count, count)), np.ones(count)
-    moved_px = np.inf
+    sums = np.empty((row.MOST_NUMBERS, row.MOST_NUMBERS))
+    L, scale, moved_px = np.zeros((count, count)), np.ones(count), np.inf
     for _ in range(_MOST_ROUNDS):
-        sums, sizes = _summed(view, fit, pixel_count, edges, noise, count, every)
-        noise = max(np.median(sizes[:: 1 + len(sizes) // _JUDGED]) / 0.6745, LEAST_NOISE)
-        N, g = sums[1 : count + 1, 1 : count + 1], sums[1 : count + 1, 0].copy()
+        noise = _sum_up(view, fit, pixel_count, edges, noise, count, every, sums)
         if count > SLOPES:
-            _add_priors(N, g, fit, noise)
-        if not factor(N, L, scale):
+            _add_priors(sums, fit, noise)
+        if not factor(sums, L, scale):
             return noise, np.inf, L, scale
-        step = solve(L, scale, g)
+        step = solve(L, scale, sums)
         moved_px = _shorten(fit, step, view.frame[2])
         fit[:count] += step
         _limited(fit, view.frame[2])
@@ -69,22 +68,30 @@ def fit_pixels(
 
 
 @step
-def _summed(
-    view: View, fit: Array, pixel_count: int, edges: int, noise: float, count: int, every: int
-) -> tuple[Array, Array]:
-    """Return the sums of products, and the sizes of residuals."""
-    room = view.room
-    sums, sizes = np.zeros((row.MOST_NUMBERS, row.MOST_NUMBERS)), np.empty(pixel_count)
-    narrow = fit.astype(np.float32)
-    size_count = 0
+def _sum_up(
+    view: View,
+    fit: Array,
+    pixel_count: int,
+    edges: int,
+    noise: float,
+    count: int,
+    every: int,
+    sums: Array,
+) -> float:
+    """Write the sums of products of residuals and derivatives; return the noise."""
+    room, equations, counts = view.room, view.room[row.EQUATIONS :], new_counts()
+    narrow, lanes = narrowed(fit), 0
+    sums[:] = 0.0
     for first in range(0, pixel_count, every * row.BLOCK):
         _read(room, view.pixels, first, edges)
-        evaluate(room, narrow, edges, noise, count)
-        add_products(room, sums, count)
-        for p in range(min(row.BLOCK, pixel_count - first)):
-            sizes[size_count + p] = room[row.SIZE + p]
-        size_count += min(row.BLOCK, pixel_count - first)
-    return sums, sizes[:size_count]
+        evaluate(room, equations[lanes:], narrow, edges, noise, count)
+        own = min(row.BLOCK, pixel_count - first)
+        count_sizes(room[row.SIZE :], own, 1 + pixel_count // (every * _JUDGED), counts)
+        lanes += row.BLOCK
+        if lanes == row.LANES or first + every * row.BLOCK >= pixel_count:
+            add_products(equations, lanes, sums, count)
+            lanes = 0
+    return noise_of(counts)
 
 
 @step
@@ -103,15 +110,15 @@ def variance_beside_edges(
 
     There it holds what the model does not describe too, and it is what moves the fit.
     """
-    room, squares, slopes2 = view.room, 0.0, 1e-12
-    narrow = fit.astype(np.float32)
-    across, downward = row.J + 2 * row.BLOCK, row.J + 5 * row.BLOCK  # by a shift of the picture
+    room, equations, squares, slopes2 = view.room, view.room[row.EQUATIONS :], 0.0, 1e-12
+    narrow = narrowed(fit)
+    across, downward = row.J + 2 * row.LANES, row.J + 5 * row.LANES  # by a shift of the picture
     for first in range(0, pixel_count, row.BLOCK):
         _read(room, view.pixels, first, edges)
-        evaluate(room, narrow, edges, noise, SLOPES)
+        evaluate(room, equations, narrow, edges, noise, SLOPES)
         for p in range(row.BLOCK):
-            slope2 = room[across + p] ** 2 + room[downward + p] ** 2
-            squares += slope2 * room[row.RESIDUAL + p] ** 2
+            slope2 = equations[across + p] ** 2 + equations[downward + p] ** 2
+            squares += slope2 * equations[row.RESIDUAL + p] ** 2
             slopes2 += slope2
     return max(_OF_WEIGHTS * squares / slopes2, LEAST_NOISE**2)
 
@@ -151,17 +158,19 @@ def _shorten(fit: Array, step: Array, half_px: float) -> float:
 
 
 @step
-def _add_priors(N: Array, g: Array, fit: Array, noise: float) -> None:
+def _add_priors(sums: Array, fit: Array, noise: float) -> None:
     """Add what is known beforehand: exponents near 1, blur alike in all directions, even light."""
-    exponent = (noise / _PRIOR_EXPONENT) ** 2
-    N[EXPONENT, EXPONENT] += exponent
-    g[EXPONENT] -= exponent * fit[EXPONENT]
+    _add_prior(sums, EXPONENT, noise / _PRIOR_EXPONENT, fit[EXPONENT])
     mean = 0.5 * (fit[BLUR] + fit[BLUR + 2])
     for k in range(3):
-        blur = (noise / (_PRIOR_BLUR * mean)) ** 2
-        N[BLUR + k, BLUR + k] += blur
-        g[BLUR + k] -= blur * (fit[BLUR + k] - (0.0 if k == 1 else mean))
-    light = (noise / _PRIOR_SLOPE) ** 2
+        off = fit[BLUR + k] - (0.0 if k == 1 else mean)
+        _add_prior(sums, BLUR + k, noise / (_PRIOR_BLUR * mean), off)
     for k in range(SLOPES, EXPONENT):
-        N[k, k] += light
-        g[k] -= light * fit[k]
+        _add_prior(sums, k, noise / _PRIOR_SLOPE, fit[k])
+
+
+@step
+def _add_prior(sums: Array, k: int, root: float, off: float) -> None:
+    """Add that number k is `off` from where it is expected, with the root of a weight."""
+    sums[k + 1, k + 1] += root**2
+    sums[k + 1, 0] -= root**2 * off

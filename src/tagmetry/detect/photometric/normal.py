@@ -1,27 +1,32 @@
-"""Normal equations: sums of products over blocks of pixels, their solution and inverse."""
+"""Normal equations: sums of products over pixels, their solution and inverse."""
 
 import numpy as np
 
 from tagmetry.detect.photometric import block as row
-from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
+from tagmetry.detect.photometric.kernel import Narrow, kernel
 from tagmetry.geometry import Array
 
+_SEEN = 16  # what is asked of an inverse at once: whole vectors
+
 
 @kernel
-def add_products(room: Narrow, sums: Array, count: int) -> None:
-    """Add a block's products to the lower triangle, three rows by three: numbers are reused."""
+def add_products(equations: Narrow, lanes: int, sums: Array, count: int) -> None:
+    """Add the first lanes' products to the lower triangle, three rows by three: numbers are reused.
+
+    Row and column 0 are of the residuals.
+    """
     for a in range(0, count + 1, 3):
-        rows = room[row.RESIDUAL + a * row.BLOCK :]
+        rows = equations[a * row.LANES :]
         for b in range(0, a + 1, 3):
-            _add_nine(rows, room[row.RESIDUAL + b * row.BLOCK :], sums[a : a + 3, b : b + 3])
+            _add_nine(rows, equations[b * row.LANES :], lanes, sums[a : a + 3, b : b + 3])
 
 
 @kernel
-def _add_nine(rows: Narrow, columns: Narrow, sums: Array) -> None:
-    aa = ab = ac = ba = bb = bc = ca = cb = cc = f32(0)
-    for p in range(row.BLOCK):
-        a, b, c = rows[p], rows[row.BLOCK + p], rows[2 * row.BLOCK + p]
-        k, m, n = columns[p], columns[row.BLOCK + p], columns[2 * row.BLOCK + p]
+def _add_nine(rows: Narrow, columns: Narrow, lanes: int, sums: Array) -> None:
+    aa = ab = ac = ba = bb = bc = ca = cb = cc = np.float32(0)
+    for p in range(lanes):
+        a, b, c = rows[p], rows[row.LANES + p], rows[2 * row.LANES + p]
+        k, m, n = columns[p], columns[row.LANES + p], columns[2 * row.LANES + p]
         aa, ab, ac = aa + a * k, ab + a * m, ac + a * n
         ba, bb, bc = ba + b * k, bb + b * m, bc + b * n
         ca, cb, cc = ca + c * k, cb + c * m, cc + c * n
@@ -37,14 +42,20 @@ def _add_nine(rows: Narrow, columns: Narrow, sums: Array) -> None:
 
 
 @kernel
-def factor(N: Array, L: Array, scale: Array) -> bool:
-    """Write the Cholesky factor of N scaled to a unit diagonal; False where it has none."""
+def factor(sums: Array, L: Array, scale: Array) -> bool:
+    """Write the Cholesky factor of N scaled to a unit diagonal; False where it has none.
+
+    Args:
+        sums: Of products, as above: N is the lower triangle after the first row and column.
+        L: Written: diag(scale) N diag(scale) = L L'.
+        scale: Written, as many as there are numbers.
+    """
     n = len(scale)
     for a in range(n):
-        scale[a] = 1.0 / np.sqrt(max(N[a, a], 1e-300))
+        scale[a] = 1.0 / np.sqrt(max(sums[a + 1, a + 1], 1e-300))
     for a in range(n):
         for b in range(a + 1):
-            s = N[a, b] * scale[a] * scale[b] + (1e-10 if a == b else 0.0)
+            s = sums[a + 1, b + 1] * scale[a] * scale[b] + (1e-10 if a == b else 0.0)
             for c in range(b):
                 s -= L[a, c] * L[b, c]
             if a > b:
@@ -57,32 +68,45 @@ def factor(N: Array, L: Array, scale: Array) -> bool:
 
 
 @kernel
-def _forward(L: Array, x: Array) -> None:
-    """Replace x by the solution of L y = x."""
+def solve(L: Array, scale: Array, sums: Array) -> Array:
+    """Return the solution of N x = g, N as it was factored, g in the first column of the sums."""
+    x = np.empty(len(scale))
     for a in range(len(x)):
+        s = scale[a] * sums[a + 1, 0]
         for c in range(a):
-            x[a] -= L[a, c] * x[c]
-        x[a] /= L[a, a]
-
-
-@kernel
-def solve(L: Array, scale: Array, g: Array) -> Array:
-    """Return the solution of N x = g, N as it was factored."""
-    x = g * scale
-    _forward(L, x)
+            s -= L[a, c] * x[c]
+        x[a] = s / L[a, a]
     for a in range(len(x) - 1, -1, -1):
-        for c in range(a + 1, len(x)):
-            x[a] -= L[c, a] * x[c]
-        x[a] /= L[a, a]
-    return x * scale
+        s = x[a] / L[a, a]
+        x[a] = s * scale[a]
+        for c in range(a):
+            x[c] -= L[a, c] * s
+    return x
 
 
 @kernel
 def inverse_seen(L: Array, scale: Array, J: Array) -> Array:
-    """Return J N^-1 J', N as it was factored, J of shape (m, n)."""
-    whitened, seen = J * scale, np.zeros((len(J), len(J)))
-    for a in range(len(J)):
-        _forward(L, whitened[a])
-        for b in range(a + 1):
-            seen[a, b] = seen[b, a] = (whitened[a] * whitened[b]).sum()
-    return seen
+    """Return J N^-1 J', N as it was factored, J of shape (m, n), m at most 16."""
+    white = _whitened(L, scale, J)
+    seen = np.zeros((len(J), _SEEN))
+    for k in range(len(J)):
+        for a in range(len(white)):
+            for j in range(_SEEN):
+                seen[k, j] += white[a, k] * white[a, j]
+    return seen[:, : len(J)]
+
+
+@kernel
+def _whitened(L: Array, scale: Array, J: Array) -> Array:
+    """Return L^-1 diag(scale) J', shape (n, 16)."""
+    m, n = J.shape
+    white = np.zeros((n, _SEEN))
+    for a in range(n):
+        for k in range(m):
+            white[a, k] = scale[a] * J[k, a]
+        for c in range(a):
+            for k in range(_SEEN):
+                white[a, k] -= L[a, c] * white[c, k]
+        for k in range(_SEEN):
+            white[a, k] /= L[a, a]
+    return white

@@ -31,7 +31,7 @@ def gather(view: View, ink: Array, fit: Array, beside_px: float, wanted: int) ->
         beside_px: An edge is seen by pixels this near.
         wanted: About how many pixels to choose at most.
     """
-    grey, frame, _, room, _ = view
+    grey, frame, room = view.grey, view.frame, view.room
     cells, edges = len(ink), _edges_at_corners(ink)
     every = max(1, int(np.ceil(_beside_edges(ink, fit, frame[2], beside_px) / wanted)))
     rule = beside_px, _flat_among(cell_px(fit, frame[2]) * cells, every, wanted)

@@ -5,25 +5,45 @@ import numpy as np
 from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.elementary import exponential, logarithm
 from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
-from tagmetry.detect.photometric.model import BLACK, EXPONENT, SLOPES
+from tagmetry.detect.photometric.model import BLACK, COUNT, EXPONENT, SLOPES
+from tagmetry.geometry import Array
 
 _LEAST_LIGHT = f32(1e-7)
 _FULL = f32(255.0)
+_ROOT, _LIGHT, _BY_VALUE, _BEND, _LIGHTS = COUNT, COUNT + 1, COUNT + 3, COUNT + 5, 7
 _FAR = 4.0  # residuals beyond so many deviations count less
 
 
 @kernel
-def write_values(room: Narrow, fit: Narrow, noise: float) -> None:
-    """Write residuals and derivatives by levels and exponent; weigh all derivatives.
+def narrowed(fit: Array) -> Narrow:
+    """Return the numbers of a fit with 32 bits, and after them what their light is for all pixels.
+
+    These are one over the exponent; black's and paper's light, their derivatives by black's and
+    paper's value, and by the logarithm of the exponent.
+    """
+    exponent = np.exp(fit[EXPONENT])
+    narrow = np.empty(COUNT + _LIGHTS, dtype=np.float32)
+    narrow[:COUNT] = fit
+    narrow[_ROOT] = 1.0 / exponent
+    for k in range(2):
+        light = fit[BLACK + k] ** exponent
+        narrow[_LIGHT + k] = light
+        narrow[_BY_VALUE + k] = exponent * light / fit[BLACK + k]
+        narrow[_BEND + k] = light * np.log(light)
+    return narrow
+
+
+@kernel
+def write_values(room: Narrow, equations: Narrow, fit: Narrow, noise: float) -> None:
+    """Write residuals and derivatives by levels and exponent, weighted; `fit` is from `narrowed`.
 
     Weights are Cauchy's; a pixel that is clipped, where the model is too, says no more than that.
     """
-    exponent = np.exp(fit[EXPONENT])
-    root, sharp = f32(1) / exponent, f32(1 / (_FAR * noise))
-    black, paper = fit[BLACK] ** exponent, fit[BLACK + 1] ** exponent
-    by_black, by_paper = exponent * black / fit[BLACK], exponent * paper / fit[BLACK + 1]
-    bend_black, bend_paper = black * np.log(black), paper * np.log(paper)
-    first = row.J + BLACK * row.BLOCK
+    root, sharp = fit[_ROOT], f32(1 / (_FAR * noise))
+    black, paper = fit[_LIGHT], fit[_LIGHT + 1]
+    by_black, by_paper = fit[_BY_VALUE], fit[_BY_VALUE + 1]
+    bend_black, bend_paper = fit[_BEND], fit[_BEND + 1]
+    first = row.J + BLACK * row.LANES
     for p in range(row.BLOCK):
         x, y, white = room[row.X + p], room[row.Y + p], room[row.WHITE + p]
         contrast = paper - black + fit[SLOPES + 2] * x + fit[SLOPES + 3] * y
@@ -38,14 +58,14 @@ def write_values(room: Narrow, fit: Narrow, noise: float) -> None:
         weight = np.sqrt(counts / (f32(1) + far * far))
         by_light = weight * root * value / light
         room[row.SIZE + p] = abs(residual)
-        room[row.RESIDUAL + p] = weight * residual
+        equations[row.RESIDUAL + p] = weight * residual
         room[row.BY_WHITE + p] = by_light * contrast
-        room[first + p] = by_light * by_black * (f32(1) - white)
-        room[first + row.BLOCK + p] = by_light * by_paper * white
-        room[first + 2 * row.BLOCK + p] = by_light * x
-        room[first + 3 * row.BLOCK + p] = by_light * y
-        room[first + 4 * row.BLOCK + p] = by_light * x * white
-        room[first + 5 * row.BLOCK + p] = by_light * y * white
-        room[first + 6 * row.BLOCK + p] = by_light * (
+        equations[first + p] = by_light * by_black * (f32(1) - white)
+        equations[first + row.LANES + p] = by_light * by_paper * white
+        equations[first + 2 * row.LANES + p] = by_light * x
+        equations[first + 3 * row.LANES + p] = by_light * y
+        equations[first + 4 * row.LANES + p] = by_light * x * white
+        equations[first + 5 * row.LANES + p] = by_light * y * white
+        equations[first + 6 * row.LANES + p] = by_light * (
             bend_black * (f32(1) - white) + bend_paper * white - light * log_light
         )
