@@ -11,6 +11,11 @@ Answer = Callable[[Request], Awaitable[Response]]
 Take = Callable[[Asked], None]  # returns at once; raises InputError for what it refuses
 
 
+def words(text: str, status: int) -> Response:
+    """Return an answer in words."""
+    return Response(text, status, media_type="text/plain")
+
+
 def _nothing() -> None:
     """Do nothing: many rooms have nothing to end."""
 

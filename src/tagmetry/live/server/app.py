@@ -12,7 +12,7 @@ from starlette.requests import ClientDisconnect
 
 from tagmetry.live.messages import Role
 from tagmetry.live.page import PARTS, Part
-from tagmetry.live.rooms.room import Room
+from tagmetry.live.rooms.room import Room, words
 from tagmetry.live.running import Runner
 from tagmetry.live.server.access import Access
 from tagmetry.live.server.delivery import tell_delivery
@@ -90,11 +90,11 @@ def _sign_in(access: Access) -> Callable[[Request], Awaitable[Response]]:
     async def sign_in(request: Request) -> Response:
         body = await _body(request)
         if body is None:
-            return Response("expected the token alone", 413, media_type="text/plain")
+            return words("expected the token alone", 413)
         session = access.sign_in(body)
         if session is None:
             await asyncio.sleep(0.2)
-            return Response("this is not the token", 403, media_type="text/plain")
+            return words("this is not the token", 403)
         answer = Response(status_code=204)
         answer.set_cookie(access.cookie, session, httponly=True, samesite="strict", path="/")
         return answer

@@ -3,7 +3,7 @@
 from fastapi import Request, Response
 
 from tagmetry.live.messages import Role
-from tagmetry.live.rooms.room import Answer
+from tagmetry.live.rooms.room import Answer, words
 from tagmetry.live.server.access import Access
 
 
@@ -20,6 +20,6 @@ def behind(access: Access, role: Role | None, answer: Answer) -> Answer:
         own = access.role(request.cookies.get(access.cookie))
         if role is None or own in (role, "operator"):
             return await answer(request)
-        return Response("sign in with the token", 403, media_type="text/plain")
+        return words("sign in with the token", 403)
 
     return checked

@@ -18,7 +18,7 @@ from tagmetry.live.rooms.calibrate.messages import (
 )
 from tagmetry.live.rooms.calibrate.solved import Solved, checked_name
 from tagmetry.live.rooms.only import OnlyWork
-from tagmetry.live.rooms.room import Room
+from tagmetry.live.rooms.room import Room, words
 from tagmetry.pipeline.guided import checked_uncertainty_px
 
 _MOST_CORNERS = 1500
@@ -76,7 +76,7 @@ class _Desk:
         capture = self._capture.newest
         solved = capture.solved if capture is not None else None
         if solved is None or solved.report is None:
-            return Response("there is no report yet", 409, media_type="text/plain")
+            return words("there is no report yet", 409)
         disposition = {"content-disposition": 'attachment; filename="calibration.html"'}
         return Response(solved.report, media_type="text/html", headers=disposition)
 

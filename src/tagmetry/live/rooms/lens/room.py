@@ -14,7 +14,7 @@ from tagmetry.live.rooms.lens.drive import Drive
 from tagmetry.live.rooms.lens.messages import StartLens, StopLens
 from tagmetry.live.rooms.lens.scene import checked
 from tagmetry.live.rooms.only import OnlyWork
-from tagmetry.live.rooms.room import Room
+from tagmetry.live.rooms.room import Room, words
 
 _PATIENCE_S = 2.0  # of a request for the bank
 
@@ -62,7 +62,7 @@ class _Desk:
             [asyncio.wrap_future(self._bank)], timeout=_PATIENCE_S
         )
         if not solved:
-            return Response("being solved; ask again", 409, media_type="text/plain")
+            return words("being solved; ask again", 409)
         return JSONResponse(self._bank.result())
 
     def close(self) -> None:

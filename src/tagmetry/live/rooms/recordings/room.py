@@ -1,6 +1,5 @@
 """Answers of the room of recordings; all of them for operators."""
 
-import asyncio
 from collections.abc import Callable
 from math import isfinite
 from pathlib import Path
@@ -11,7 +10,8 @@ from fastapi.responses import FileResponse, JSONResponse
 from tagmetry.errors import InputError
 from tagmetry.live.rooms.recordings.replays import Replays
 from tagmetry.live.rooms.recordings.shelf import Shelf
-from tagmetry.live.rooms.room import Answer, Room
+from tagmetry.live.rooms.room import Answer, Room, words
+from tagmetry.live.rooms.turns import Turns
 from tagmetry.live.running import Runner
 
 _MOST_WAITING = 16
@@ -28,15 +28,16 @@ def recordings_room(runner: Runner) -> Room:
     """
     shelf = Shelf(lambda: runner.recordings, lambda: runner.recording)
     replays = Replays()
-    desk = _Desk(shelf)
+    turns = Turns(_MOST_WAITING, "too many moments are asked for at once; try again")
+    world, picture = _told(replays.world, _JSON), _told(replays.picture, _BINARY)
     return Room(
         answers={
             "/recordings": _shown(shelf),
             "/recordings/{name}": _fetched(shelf),
             "/recordings/{name}/delete": _deleted(shelf),
-            "/recordings/{name}/length": desk.answer(_length(replays)),
-            "/recordings/{name}/world": desk.answer(_told(replays.world, _JSON)),
-            "/recordings/{name}/picture": desk.answer(_told(replays.picture, _BINARY)),
+            "/recordings/{name}/length": turns.answer(_read(shelf, _length(replays))),
+            "/recordings/{name}/world": turns.answer(_read(shelf, world)),
+            "/recordings/{name}/picture": turns.answer(_read(shelf, picture)),
         }
     )
 
@@ -63,38 +64,18 @@ def _deleted(shelf: Shelf) -> Answer:
         try:
             was_there = shelf.delete(request.path_params["name"])
         except InputError as error:
-            return _words(str(error), 409)
+            return words(str(error), 409)
         return Response(status_code=204) if was_there else _nothing()
 
     return delete
 
 
-class _Desk:
-    """Reads one moment at a time, in a thread beside the server's; some may wait."""
-
-    def __init__(self, shelf: Shelf) -> None:
-        self._shelf, self._turn, self._waiting = shelf, asyncio.Semaphore(1), 0
-
-    def answer(self, read: Read) -> Answer:
-        """Return an answer that reads a recording when it is its turn."""
-
-        async def answered(request: Request) -> Response:
-            if self._waiting >= _MOST_WAITING:
-                return _words("too many moments are asked for at once; try again", 503)
-            self._waiting += 1
-            try:
-                async with self._turn:
-                    return await asyncio.to_thread(self._read, read, request)
-            except (InputError, OSError) as error:
-                return _words(str(error), 422)
-            finally:
-                self._waiting -= 1
-
-        return answered
-
-    def _read(self, read: Read, request: Request) -> Response:
-        path = self._shelf.whole(request.path_params["name"])
+def _read(shelf: Shelf, read: Read) -> Callable[[Request], Response]:
+    def answer(request: Request) -> Response:
+        path = shelf.whole(request.path_params["name"])
         return _nothing() if path is None else read(path, _at_s(request))
+
+    return answer
 
 
 def _length(replays: Replays) -> Read:
@@ -129,8 +110,4 @@ def _at_s(request: Request) -> float:
 
 
 def _nothing() -> Response:
-    return _words("there is no such recording", 404)
-
-
-def _words(text: str, status: int) -> Response:
-    return Response(text, status, media_type="text/plain")
+    return words("there is no such recording", 404)
