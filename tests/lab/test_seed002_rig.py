@@ -19,7 +19,8 @@ from tagmetry.lab.rigs.marker_floor import (
     marker_map,
     picture,
 )
-from tagmetry.lab.rigs.paper_localization import fused_place, seen_corners
+from tagmetry.lab.rigs.opencv_corners import opencv_corners
+from tagmetry.lab.rigs.paper_localization import fused_place
 
 LAYOUTS = {
     "one": 1,
@@ -126,13 +127,13 @@ def test_nearer_markers_weigh_more(power: float) -> None:
 
 def test_no_marker_no_place() -> None:
     assert fused_place({}, marker_map(Stand("one", 2.0)), CAMERA, 1.0) is None
-    assert seen_corners(np.full((480, 640), 120, np.uint8)) == {}
+    assert opencv_corners(np.full((480, 640), 120, np.uint8)) == {}
 
 
 def test_opencv_sees_the_tags_upright() -> None:
     stand = Stand("four", 1.5, 20.0)
     T_world_camera = camera_place(stand, np.random.default_rng(2))
-    seen = seen_corners(picture(stand, T_world_camera, np.random.default_rng(2)))
+    seen = opencv_corners(picture(stand, T_world_camera, np.random.default_rng(2)))
     true = pixels_of(stand, T_world_camera)
     assert set(seen) == set(true)
     for marker_id, corners in true.items():

@@ -4,14 +4,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tagmetry.geometry import Array
+from tagmetry.lab.beside.quantities import values_of
 from tagmetry.lab.beside.sample import rounded
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed001 import seed001
+from tagmetry.lab.rigs.camera_numbers import PARAMETERS
 from tagmetry.lab.rows import Quantity
 from tagmetry.record.report import Cell, ReportTable
 
-PARAMETERS = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
 _LENS = PARAMETERS[4:]
 _ERRORS = ("rms px", "projection rms px")
 
@@ -38,7 +38,7 @@ def _lens_check(rows: Sequence[Quantity]) -> Check:
 
 
 def _projection_check(rows: Sequence[Quantity]) -> Check:
-    ours, theirs = (float(_of(rows, m, _ERRORS[1]).max()) for m in ("tagmetry", "paper"))
+    ours, theirs = (float(values_of(rows, m, _ERRORS[1]).max()) for m in ("tagmetry", "paper"))
     return Check(
         "projections over the whole image",
         "nearer to the true ones than by the paper's steps",
@@ -65,24 +65,20 @@ def _line(rows: Sequence[Quantity], name: str) -> tuple[Cell, ...]:
     true = next(row.true for row in rows if row.name == name)
     sd = np.mean([row.sd for row in rows if row.name == name and row.method == "tagmetry"])
     ours, theirs = _rms(rows, "tagmetry", name), _rms(rows, "paper", name)
-    mean = float(_of(rows, "tagmetry", name).mean())
+    mean = float(values_of(rows, "tagmetry", name).mean())
     better = "yes" if ours <= theirs else "no"
     return name, true, mean, rounded(ours), rounded(float(sd)), rounded(theirs), better
 
 
 def _errors(rows: Sequence[Quantity]) -> ReportTable:
     lines: tuple[tuple[Cell, ...], ...] = tuple(
-        (name, *(rounded(float(_of(rows, m, name).mean())) for m in ("paper", "tagmetry")))
+        (name, *(rounded(float(values_of(rows, m, name).mean())) for m in ("paper", "tagmetry")))
         for name in _ERRORS
     )
     header = ("", "its steps", "ours")
     return ReportTable("seed001_calibration", "Errors of the calibration", header, lines)
 
 
-def _of(rows: Sequence[Quantity], method: str, name: str) -> Array:
-    return np.array([row.value for row in rows if (row.method, row.name) == (method, name)])
-
-
 def _rms(rows: Sequence[Quantity], method: str, name: str) -> float:
     true = next(row.true for row in rows if row.name == name)
-    return float(np.sqrt(((_of(rows, method, name) - true) ** 2).mean()))
+    return float(np.sqrt(((values_of(rows, method, name) - true) ** 2).mean()))

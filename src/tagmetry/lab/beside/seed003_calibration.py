@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tagmetry.geometry import Array
+from tagmetry.lab.beside.quantities import values_of
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed003 import seed003
 from tagmetry.lab.rows import Quantity
@@ -24,7 +25,7 @@ _WHOLE = (
 
 def conclude(rows: Sequence[Quantity]) -> Conclusions:
     """Return the camera, the errors and the poses, and whether the published error is reached."""
-    ours = _values(rows, "tagmetry", "tutorial error px")
+    ours = values_of(rows, "tagmetry", "tutorial error px")
     printed_px = seed003().calibration.error_px
     check = Check(
         "calibration error as the paper counts it",
@@ -60,7 +61,7 @@ def _table(name: str, title: str, rows: Sequence[Quantity], names: Sequence[str]
 
 def _line(rows: Sequence[Quantity], name: str) -> tuple[Cell, ...]:
     true = next(row.true for row in rows if row.name == name)
-    ours, theirs = _values(rows, "tagmetry", name), _values(rows, "paper", name)
+    ours, theirs = values_of(rows, "tagmetry", name), values_of(rows, "paper", name)
     own_rms, their_rms = _rms(ours - true), _rms(theirs - true)
     sd = [row.sd for row in rows if row.name == name and row.method == "tagmetry"]
     return (
@@ -81,17 +82,13 @@ def _errors(rows: Sequence[Quantity]) -> ReportTable:
         (
             name,
             printed.get(name, float("nan")),
-            float(_values(rows, "paper", name).mean()),
-            float(_values(rows, "tagmetry", name).mean()),
+            float(values_of(rows, "paper", name).mean()),
+            float(values_of(rows, "tagmetry", name).mean()),
         )
         for name in _ERRORS
     )
     header = ("", "published", "its steps on the twin", "ours")
     return ReportTable("seed003_errors", "Errors of the calibration", header, lines)
-
-
-def _values(rows: Sequence[Quantity], method: str, name: str) -> Array:
-    return np.array([row.value for row in rows if (row.method, row.name) == (method, name)])
 
 
 def _rms(errors: Array) -> float:

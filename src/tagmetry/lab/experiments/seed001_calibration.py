@@ -4,14 +4,14 @@ The camera that the paper prints is the true one, with its centre in the middle.
 from the same pictures by tagmetry and by OpenCV's ChArUco board, as the paper does.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.camera import Camera
-from tagmetry.lab.beside.seed001_calibration import PARAMETERS, conclude
+from tagmetry.lab.beside.seed001_calibration import conclude
 from tagmetry.lab.experiment import Experiment
+from tagmetry.lab.rigs.camera_numbers import camera_numbers, projection_rms_px
 from tagmetry.lab.rigs.overhead import CAMERA, board_pictures
 from tagmetry.lab.rigs.overhead_calibration import METHODS, calibrated
 from tagmetry.lab.rows import Quantity
@@ -41,29 +41,11 @@ def measure(case: Case, seed: int) -> Sequence[Quantity]:
     rows: list[Quantity] = []
     for method in METHODS:
         camera, rms_px = calibrated(method, pictures)
-        rows += [Quantity(method, case.repeat, *one) for one in _numbers(camera)]
+        rows += [Quantity(method, case.repeat, *one) for one in camera_numbers(camera, CAMERA)]
         rows.append(Quantity(method, case.repeat, "rms px", rms_px, np.nan, np.nan))
-        off_px = _projection_rms_px(camera)
+        off_px = projection_rms_px(camera, CAMERA, places=(49, 28))
         rows.append(Quantity(method, case.repeat, "projection rms px", off_px, 0.0, np.nan))
     return rows
-
-
-def _numbers(camera: Camera) -> Iterator[tuple[str, float, float, float]]:
-    covariance = camera.covariance
-    sd = np.sqrt(np.diag(covariance)) if covariance is not None else np.full(9, np.nan)
-    yield from zip(PARAMETERS, _values(camera), _values(CAMERA), sd.tolist(), strict=True)
-
-
-def _values(camera: Camera) -> list[float]:
-    return [*camera.focal_px, *camera.center_px, *camera.lens.coefficients]
-
-
-def _projection_rms_px(camera: Camera) -> float:
-    """Return how far projections are from the true ones, over all of the picture."""
-    u, v = np.meshgrid(np.linspace(0, 1919, 49), np.linspace(0, 1079, 28))
-    rays = CAMERA.unproject(np.stack([u, v], axis=-1))
-    error = camera.project(rays) - CAMERA.project(rays)
-    return float(np.sqrt(np.nanmean((error**2).sum(axis=-1))))
 
 
 EXPERIMENT = Experiment(

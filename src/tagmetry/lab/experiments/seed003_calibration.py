@@ -8,52 +8,30 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from tagmetry.camera import Camera
-from tagmetry.geometry import Array
 from tagmetry.lab.beside.seed003_calibration import conclude
 from tagmetry.lab.experiment import Experiment
+from tagmetry.lab.rigs.camera_numbers import camera_numbers, projection_rms_px
 from tagmetry.lab.rigs.webcam import CAMERA, PRINTED, board_poses, to_tutorial
 from tagmetry.lab.rigs.webcam_calibration import Case, SolvedWebcam, cases, solved_webcam
 from tagmetry.lab.rows import Quantity
-
-_PARAMETERS = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
 
 
 def measure(case: Case, seed: int) -> Sequence[Quantity]:
     """Return the camera's numbers, the errors, and the printed views' poses, with the truth."""
     solved = solved_webcam(case.method, np.random.default_rng(seed))
-    named = (*_camera(solved.camera), *_errors(solved), *_poses(solved))
+    named = (*camera_numbers(solved.camera, CAMERA), *_errors(solved), *_poses(solved))
     return [Quantity(case.method, case.repeat, *one) for one in named]
-
-
-def _camera(camera: Camera) -> Iterator[tuple[str, float, float, float]]:
-    covariance = camera.covariance
-    sd = np.sqrt(np.diag(covariance)) if covariance is not None else np.full(9, np.nan)
-    yield from zip(_PARAMETERS, _numbers(camera), _numbers(CAMERA), sd.tolist(), strict=True)
-
-
-def _numbers(camera: Camera) -> list[float]:
-    return [*camera.focal_px, *camera.center_px, *camera.lens.coefficients]
 
 
 def _errors(solved: SolvedWebcam) -> Iterator[tuple[str, float, float, float]]:
     named = (
         ("rms px", solved.rms_px),
         ("tutorial error px", solved.tutorial_error_px),
-        ("projection rms px", _projection_rms_px(solved.camera)),
+        ("projection rms px", projection_rms_px(solved.camera, CAMERA, places=(33, 25))),
         ("views", float(len(solved.views))),
     )
     for name, value in named:
         yield name, value, np.nan, np.nan
-
-
-def _projection_rms_px(camera: Camera) -> float:
-    """Return how far projections are from the true ones, over all of the picture that has rays."""
-    u, v = np.meshgrid(np.linspace(0, 639, 33), np.linspace(0, 479, 25))
-    rays = CAMERA.unproject(np.stack([u, v], axis=-1))
-    rays = rays[np.isfinite(rays).all(axis=-1)]
-    error: Array = camera.project(rays) - CAMERA.project(rays)
-    return float(np.sqrt(np.nanmean((error**2).sum(axis=-1))))
 
 
 def _poses(solved: SolvedWebcam) -> Iterator[tuple[str, float, float, float]]:

@@ -24,7 +24,8 @@ from tagmetry.lab.rigs.marker_floor import (
     marker_map,
     picture,
 )
-from tagmetry.lab.rigs.paper_localization import fused_place, seen_corners
+from tagmetry.lab.rigs.opencv_corners import opencv_corners
+from tagmetry.lab.rigs.paper_localization import fused_place
 from tagmetry.lab.rows import Localization
 from tagmetry.localize import METHODS, Localizer, MarkerMap
 
@@ -67,7 +68,7 @@ def estimates(pixels: AnyPixels, places: MarkerMap, camera: Camera = CAMERA) -> 
         camera: The intrinsics that are taken to be right.
     """
     found = Detector([FAMILY]).detect(pixels, camera)
-    theirs = seen_corners(pixels)
+    theirs = opencv_corners(pixels)
     own = {detection.id: detection.corners_px for detection in found}
     for name, (corners_px, power) in {
         **{name: (theirs, power) for name, power in PAPER.items()},

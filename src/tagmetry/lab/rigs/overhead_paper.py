@@ -5,17 +5,14 @@
 This shares no code with tagmetry's own way.
 """
 
-from functools import lru_cache
-
 import cv2
 import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, wrap_angle_rad
 from tagmetry.geometry.arrays import AnyPixels
+from tagmetry.lab.rigs.opencv_corners import opencv_corners
 from tagmetry.markers import marker_corners_m
-
-_HALF_TURN = 2  # corners: OpenCV's AprilTags stand upside down against the AprilTag project's
 
 
 def seen_places(pixels: AnyPixels, camera: Camera, size_m: float) -> dict[int, Array]:
@@ -25,10 +22,8 @@ def seen_places(pixels: AnyPixels, camera: Camera, size_m: float) -> dict[int, A
     from x, so that all is as on a floor below a camera that looks straight down.
     """
     lens = np.array(camera.lens.coefficients)
-    corners, ids, _ = _detector().detectMarkers(pixels)
     found: dict[int, Array] = {}
-    for marker_id, one in zip(np.ravel(ids), corners, strict=False):  # ids: None where none is
-        own = np.roll(np.asarray(one, dtype=np.float64).reshape(4, 2), _HALF_TURN, axis=0)
+    for marker_id, own in opencv_corners(pixels).items():
         _, turn, place = cv2.solvePnP(
             marker_corners_m(size_m), own, camera.matrix, lens, flags=cv2.SOLVEPNP_IPPE_SQUARE
         )
@@ -36,14 +31,6 @@ def seen_places(pixels: AnyPixels, camera: Camera, size_m: float) -> dict[int, A
         top = cv2.Rodrigues(turn)[0][:, 1]
         found[int(marker_id)] = np.array([x_m, -y_m, np.arctan2(-top[1], top[0])])
     return found
-
-
-@lru_cache
-def _detector() -> "cv2.aruco.ArucoDetector":
-    parameters = cv2.aruco.DetectorParameters()
-    parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
-    dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_APRILTAG_36h11)
-    return cv2.aruco.ArucoDetector(dictionary, parameters)
 
 
 def fitted(measured: Array, true: Array) -> Array:

@@ -11,28 +11,15 @@ library's edges at these sizes, and found where those are lost.
 """
 
 from collections.abc import Mapping
-from functools import lru_cache
 
 import cv2
 import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array, RigidTransform
-from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.geometry.transforms import Rotation
 from tagmetry.localize import MarkerMap
 from tagmetry.markers import marker_corners_m
-
-_HALF_TURN = 2  # corners: OpenCV's AprilTags stand upside down against the AprilTag project's
-
-
-def seen_corners(pixels: AnyPixels) -> dict[int, Array]:
-    """Return the corners of every AprilTag by its id, clockwise from the top left, (4, 2)."""
-    corners, ids, _ = _detector().detectMarkers(pixels)
-    return {
-        int(marker_id): np.roll(np.asarray(one, dtype=np.float64).reshape(4, 2), _HALF_TURN, axis=0)
-        for one, marker_id in zip(corners, np.ravel(ids), strict=False)  # ids: None where none is
-    }
 
 
 def fused_place(
@@ -67,11 +54,3 @@ def _average(cameras: list[RigidTransform], ratios: Array) -> RigidTransform:
     angles_rad = np.array([T.rotation.as_euler("ZYX") for T in cameras])
     mean_rad = np.arctan2(ratios @ np.sin(angles_rad), ratios @ np.cos(angles_rad))
     return RigidTransform.from_components(place_m, Rotation.from_euler("ZYX", mean_rad))
-
-
-@lru_cache
-def _detector() -> "cv2.aruco.ArucoDetector":
-    parameters = cv2.aruco.DetectorParameters()
-    parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
-    dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_APRILTAG_36h11)
-    return cv2.aruco.ArucoDetector(dictionary, parameters)
