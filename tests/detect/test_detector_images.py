@@ -168,6 +168,16 @@ def test_any_array_gives_markers_or_words(seed: int, height: int, width: int, ki
         assert np.linalg.eigvalsh(detection.corners_cov_px2).min() > 0
 
 
+def test_an_image_full_of_small_markers() -> None:
+    """Cells of 3 px everywhere, so that every tile has dark and bright pixels, as noise has."""
+    own = family("tag36h11")
+    tiles = [np.pad(own.picture(n), 1, constant_values=True) for n in range(80)]
+    cells = np.block([tiles[10 * row : 10 * row + 10] for row in range(8)])
+    picture = np.where(cells, 220, 30).repeat(3, axis=0).repeat(3, axis=1).astype(np.uint8)
+    found = Detector(min_side_px=20).detect(picture)
+    assert named(found) == [(own.name, n) for n in range(80)]
+
+
 def grid_of_squares(pitch_px: int) -> np.ndarray:
     picture = np.full((1080, 1920), 200, np.uint8)
     for offset in range(0, pitch_px, 2 * pitch_px // 3):

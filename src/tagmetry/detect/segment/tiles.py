@@ -21,6 +21,7 @@ TILE_PX = 4
 _NEAR_TILES, _WIDE_TILES = 3, 9  # how many tiles across are around a tile
 _WIDE_GATE = 1.6  # noise reaches farther within many tiles
 _LEAST_GATE = 10.0  # grey values
+_MOST_GATE = 140.0  # where markers fill the image, no tile shows noise alone
 _PLAIN_SHARE = 0.25  # of the tiles are taken to show nothing but noise
 _NOISE_REACH = 2.4  # ranges of nine tiles of noise are hardly ever more times that of one
 
@@ -86,7 +87,7 @@ def noise_gate(own: Extremes) -> float:
     """Return the difference of grey values that noise alone does not reach within nine tiles."""
     ranges = cv2.calcHist([own.ranges], [0], None, [256], [0, 256]).ravel()
     plain = int(np.searchsorted(np.cumsum(ranges, dtype=np.int64), _PLAIN_SHARE * own.darkest.size))
-    return max(_LEAST_GATE, _NOISE_REACH * plain)
+    return min(max(_LEAST_GATE, _NOISE_REACH * plain), _MOST_GATE)
 
 
 @njit(cache=True, nogil=True)

@@ -78,7 +78,7 @@ def _share_of_the_best(results: Results, case: str) -> Iterator[Goal]:
     if ours and ours.corner_rms_px and ours.bound_px and peers_px:
         best_px = min(peers_px)
         yield Goal(
-            f"{case}: corners, as a share of the best peer's",
+            f"{case}: corners by the best peer's",
             ours.corner_rms_px / best_px,
             0.2,
             bound=ours.bound_px / best_px,
@@ -90,7 +90,7 @@ def _covariances(results: Results) -> Iterator[Goal]:
         ours = _ours(results, setup.name)
         if ours and ours.distance2 is not None:
             off = abs(ours.distance2 - 8)
-            yield Goal(f"{setup.name}: stated covariance, squared distance off 8", off, 1.0)
+            yield Goal(f"{setup.name}: squared distance, off 8", off, 1.0)
 
 
 def _false_positives(results: Results) -> Iterator[Goal]:

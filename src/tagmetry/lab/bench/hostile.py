@@ -11,7 +11,7 @@ from tagmetry.lab.bench.setup import FULL_HD
 
 _DARK, _LIGHT = 30, 220
 _CHECKS_PX = (6, 16, 48)
-_FRAMES_PX = (26, 48)
+_FRAMES_PX = (32, 48)
 _TEXT = "il1o0 8B&# marker [#] " * 12
 _LINE_PX = 14
 
