@@ -2,11 +2,12 @@ from pathlib import Path
 
 from tagmetry.live.client import LiveClient
 from tagmetry.live.opening import opened_page
+from tagmetry.live.show.programme import Programme
 
 # usually `tagmetry live` runs, and prints URL and token
-here = ("127.0.0.1", 0, Path("recordings"))
+programme = Programme("leader_follower", 2, Path("recordings"), pictures=False)
 with (
-    opened_page("leader_follower", 2, *here, pictures=False) as page,
+    opened_page(programme, "127.0.0.1", 0) as page,
     LiveClient(page.url, page.token) as live,
 ):
     live.set_parameter("length_m", 0.25)  # of the spring that ties the follower

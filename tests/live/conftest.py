@@ -9,6 +9,7 @@ from chromium import Chromium, browser_path
 from live_server import Served, served
 
 from tagmetry.live.opening import LivePage, opened_page
+from tagmetry.live.show.programme import Programme
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +24,8 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LivePage]:
     browser_path()
     folder = tmp_path_factory.mktemp("recordings")
     pictures = "LIVE_PICTURES" in os.environ
-    with opened_page("leader_follower", 12, "127.0.0.1", 0, folder, pictures=pictures) as own:
+    programme = Programme("leader_follower", 12, folder, pictures=pictures)
+    with opened_page(programme, "127.0.0.1", 0) as own:
         yield own
 
 

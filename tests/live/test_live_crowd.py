@@ -17,6 +17,7 @@ from chromium import Chromium, browser_path
 
 from tagmetry.live.health.memory import resident_bytes
 from tagmetry.live.opening import LivePage, opened_page
+from tagmetry.live.show.programme import Programme
 
 SOAK_S, STEP_S = float(os.environ.get("LIVE_SOAK_S", "180")), 5.0
 HEALTHY, SLOW, HALF_OPEN = 900, 50, 50
@@ -24,9 +25,7 @@ HEALTHY, SLOW, HALF_OPEN = 900, 50, 50
 
 @pytest.fixture
 def page(tmp_path: Path) -> Iterator[LivePage]:
-    with (
-        opened_page("leader_follower", 12, "127.0.0.1", 0, tmp_path) as own,
-    ):
+    with opened_page(Programme("leader_follower", 12, tmp_path), "127.0.0.1", 0) as own:
         time.sleep(8)  # the floor is lit
         yield own
 

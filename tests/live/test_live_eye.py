@@ -19,6 +19,7 @@ from tagmetry.live.messages import Picture
 from tagmetry.live.show.eye import Look, WatchedEye
 from tagmetry.live.show.feed import Feed
 from tagmetry.live.show.painter import Painter, measured
+from tagmetry.live.show.programme import Programme
 from tagmetry.live.show.recording import Recordings
 from tagmetry.live.show.runner import LiveRunner
 from tagmetry.live.show.seeing import seeing
@@ -119,7 +120,7 @@ def test_the_markers_lie_where_the_painted_picture_shows_them(tmp_path: Path) ->
         if isinstance(message, Picture):
             pictures.append(message)
 
-    with LiveRunner("aggregate", 3, tmp_path, take, eye="corners"):
+    with LiveRunner(Programme("aggregate", 3, tmp_path, eye="corners"), take):
         eventually(lambda: len(pictures) >= 2, 60)
     check_markers(pictures[-1])
 

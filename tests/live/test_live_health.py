@@ -9,6 +9,7 @@ from live_server import eventually
 from tagmetry.live.health.advice import Signs, advice
 from tagmetry.live.health.memory import resident_bytes
 from tagmetry.live.messages import Health, StartRecording
+from tagmetry.live.show.programme import Programme
 from tagmetry.live.show.runner import LiveRunner
 
 WELL = Signs(
@@ -66,7 +67,8 @@ def test_a_running_arena_tells_its_health(tmp_path: Path) -> None:
         if isinstance(message, Health):
             told.append(message)
 
-    with LiveRunner("aggregate", 2, tmp_path / "not yet there", take, pictures=False) as runner:
+    programme = Programme("aggregate", 2, tmp_path / "not yet there", pictures=False)
+    with LiveRunner(programme, take) as runner:
         runner.ask(1, StartRecording())
         eventually(lambda: told and told[-1].image_rate_hz > 3 and told[-1].recording, 30)
         eventually(lambda: told[-1].least_battery_v is not None, 30)

@@ -34,6 +34,7 @@ from tagmetry.live.messages import (
 from tagmetry.live.show import watch as watch_module
 from tagmetry.live.show.errands import toward_goal
 from tagmetry.live.show.orders import Order, Orders
+from tagmetry.live.show.programme import Programme
 from tagmetry.live.show.runner import LiveRunner
 from tagmetry.live.show.steered import Steered
 from tagmetry.live.show.watch import BEAT_S, PATIENCE_S, Watch
@@ -50,7 +51,8 @@ class Running:
 
     def __init__(self, folder: Path) -> None:
         self.newest: dict[str, Told] = {}
-        self.runner = LiveRunner("leader_follower", ROBOTS, folder, self.take, pictures=False)
+        programme = Programme("leader_follower", ROBOTS, folder, pictures=False)
+        self.runner = LiveRunner(programme, self.take)
 
     def take(self, message: Told) -> None:
         self.newest[type(message).__name__] = message

@@ -61,9 +61,11 @@ def _show_arena(out: Path, *, headless: bool) -> None:
         return
     require_server()
     from tagmetry.live.opening import opened_page
+    from tagmetry.live.show.programme import Programme
 
     typer.echo("\nTwelve simulated robots, leaders and followers, in your browser:\n")
-    with opened_page(_SCENARIO, _ROBOTS, "127.0.0.1", 0, out / "recordings") as page:
+    programme = Programme(_SCENARIO, _ROBOTS, out / "recordings")
+    with opened_page(programme, "127.0.0.1", 0) as page:
         serve(page, browser=True)
 
 

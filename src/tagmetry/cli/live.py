@@ -62,16 +62,8 @@ def live(  # noqa: PLR0913 (each argument is an option)
     require_server()
     from tagmetry.live.opening import opened_page
     from tagmetry.live.rooms.every import Furniture
+    from tagmetry.live.show.programme import Programme
 
-    with opened_page(
-        scenario,
-        robots,
-        address,
-        port,
-        recordings,
-        controllers=controller or (),
-        pictures=pictures,
-        eye=eye,
-        furniture=Furniture(camera, cameras, maps),
-    ) as page:
+    programme = Programme(scenario, robots, recordings, controller or (), pictures, eye)
+    with opened_page(programme, address, port, Furniture(camera, cameras, maps)) as page:
         serve(page, browser=browser)

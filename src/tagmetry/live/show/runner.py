@@ -7,7 +7,7 @@ A computer that is too slow lets the arena fall behind the clock; no tick of it 
 
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Self
 
@@ -35,9 +35,9 @@ from tagmetry.live.show.commands import command
 from tagmetry.live.show.eye import Look
 from tagmetry.live.show.feed import Feed
 from tagmetry.live.show.orders import Order, Orders
+from tagmetry.live.show.programme import Programme
 from tagmetry.live.show.recording import Recordings
 from tagmetry.live.show.repertoire import Repertoire
-from tagmetry.live.show.seeing import EyeKind
 from tagmetry.live.show.stage import Performance, performance
 from tagmetry.live.show.watch import Watch
 from tagmetry.pipeline.arena_twin.run import TICK_S
@@ -50,40 +50,25 @@ _GONE = "the page that drives was closed, hidden or cut off"
 class LiveRunner(Closing):
     """Runs a scenario for pages; to be used in a with-block."""
 
-    def __init__(
-        self,
-        scenario: str,
-        robots: int,
-        recordings: Path,
-        give: Callable[[Told], None],
-        *,
-        controllers: Sequence[Path] = (),
-        pictures: bool = True,
-        eye: EyeKind = "corners",
-    ) -> None:
+    def __init__(self, programme: Programme, give: Callable[[Told], None]) -> None:
         """Make everything ready.
 
         Args:
-            scenario: A ready-made one, or a controller's file by its name.
-            robots: How many.
-            recordings: Folder for what is recorded.
+            programme: What is shown.
             give: Takes every message for the pages, and returns at once.
-            controllers: Files of users that can be chosen.
-            pictures: Show what the camera sees.
-            eye: What is measured.
 
         Raises:
             InputError: There is no such scenario, not for so many robots, or a file is broken.
         """
-        self._repertoire = Repertoire(controllers)
-        self._pictures, self._eye = pictures, eye
-        self._recordings = Recordings(recordings)
+        self._programme = programme
+        self._repertoire = Repertoire(programme.controllers)
+        self._recordings = Recordings(programme.recordings)
         self._feed = Feed(give, self._recordings)
         self._orders = Orders()
         self._watch = Watch()
         self._why: str | None = None
         self._late_s = 0.0
-        self._show = self._begin(scenario, robots)
+        self._show = self._begin(programme.scenario, programme.robots)
         self._is_closing = threading.Event()
         self._thread = threading.Thread(target=self._run, name="arena", daemon=True)
 
@@ -219,6 +204,7 @@ class LiveRunner(Closing):
             self._recordings.image(Image(pixels, look.time_s, "capture", source="twin"))
             self._feed.picture(look, pixels, show)
 
-        show = performance(name, scenario, give if self._pictures else None, self._eye)
+        take = give if self._programme.pictures else None
+        show = performance(name, scenario, take, self._programme.eye)
         self._feed.stage(show)
         return show
