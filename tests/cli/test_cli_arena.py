@@ -80,7 +80,9 @@ def test_calibration_tells_camera_and_floor(
 ) -> None:
     assert arena(table, "calibrate", "floor.png") == 0
     out = capsys.readouterr().out.splitlines()
-    assert out[0].startswith("camera at x 0.500 y -0.300 z 1.200 m (+-")
+    words = out[0].split()
+    assert [float(words[n]) for n in (3, 5, 7)] == pytest.approx([0.5, -0.3, 1.2], abs=1e-3)
+    assert words[8:10] == ["m", "(±"]
     assert out[2].startswith("floor marker 101: x 1.000")
     assert out[-1] == f"wrote {table / 'arena.world.yaml'}"
 

@@ -7,8 +7,8 @@ import pytest
 
 from tagmetry.cli.main import run
 from tagmetry.files import save_bank
-from tagmetry.files.lens import LensFile, save_lens
-from tagmetry.lens import LogLaw
+from tagmetry.files.lens import LensFile, law_line, load_lens, save_lens
+from tagmetry.lens import DioptreLaw, LogLaw, SplineLaw
 from tagmetry.pipeline.lens.twin import webcam_lens
 
 
@@ -50,7 +50,8 @@ def test_a_focus_curve_grows_by_a_pair_each_time(place: Path, capsys) -> None:
     depth_m, focus, _ = Path("curve.csv").read_text().splitlines()[-1].split(",")
     assert float(depth_m) == 0.15
     assert float(focus) == pytest.approx(4 - 42.11 * -1.897, abs=2.0)
-    assert "alpha=42." in told
+    assert "log      rms" in told
+    assert "law: {kind: log, numbers: [42." in told  # as the lens file wants it
     assert Path("curve.png").stat().st_size > 5000
 
 
@@ -58,7 +59,10 @@ def test_a_focus_curve_grows_by_a_pair_each_time(place: Path, capsys) -> None:
     ("arguments", "words"),
     [
         (["scan", "twin:overhead", "--lens=lens.yaml", "--size=10mm"], "no control 'zoom'"),
-        (["scan", "twin:webcam", "--lens=none.yaml", "--size=10mm"], "none.yaml"),
+        (
+            ["scan", "twin:webcam", "--lens=none.yaml", "--size=10mm"],
+            "tagmetry: none.yaml: there is",
+        ),
         (["scan", "twin:webcam", "--lens=bank.yaml", "--size=10mm"], "bank.yaml"),
         (["scan", "twin:webcam", "--lens=lens.yaml", "--size=0mm"], "length above 0"),
         (["scan", "twin:room", "--lens=lens.yaml", "--size=10mm"], "has no controls"),
@@ -69,5 +73,25 @@ def test_a_focus_curve_grows_by_a_pair_each_time(place: Path, capsys) -> None:
 )
 def test_what_cannot_be_done_is_told_in_one_line(place: Path, arguments, words, capsys) -> None:
     assert run(["lens", *arguments]) == 2
-    told = capsys.readouterr().err.splitlines()
-    assert words in told[-1]
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert words in told.err
+    assert told.err.count("\n") == 1
+
+
+@pytest.mark.parametrize("content", [b"tagmetry: camera\n", b"\x89PNG", b""])
+def test_another_file_is_no_file_of_pairs_and_stays(content: bytes, place: Path, capsys) -> None:
+    Path("other").write_bytes(content)
+    assert run(["lens", "focus-curve", "twin:webcam", "--depth=0.2m", "--pairs=other"]) == 2
+    told = capsys.readouterr()
+    assert told.out == ""  # before the focus is swept
+    assert told.err.startswith("tagmetry: other: ")
+    assert Path("other").read_bytes() == content
+
+
+def test_the_line_for_the_lens_file_reads_back(place: Path) -> None:
+    for law in (LogLaw(42.11, 4.0), DioptreLaw(7.0, 1.0), SplineLaw((-1.0, 0.0), (50.0, 4.0))):
+        text = Path("lens.yaml").read_text()
+        lines = [line for line in text.splitlines() if not line.startswith(("law", "  "))]
+        Path("other.yaml").write_text("\n".join([*lines, law_line(law)]))
+        assert load_lens("other.yaml").law == law

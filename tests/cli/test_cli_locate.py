@@ -74,7 +74,13 @@ def test_files_and_a_picture_are_written(hall, capsys):
     pytest.importorskip("matplotlib")
     out, picture = folder / "poses.tum", folder / "way.png"
     assert run(arguments(folder, "--out", str(out), "--picture", str(picture))) == 0
-    assert "8 markers" in capsys.readouterr().out
+    told = capsys.readouterr().out
+    assert "8 markers" in told
+    x, y, z = T.rotation.as_matrix()[:, 2]
+    aim_deg = np.degrees([np.arctan2(y, x), abs(np.arctan2(z, np.hypot(x, y)))])
+    words = told.split("looks ")[1].split()
+    assert [float(words[0][:-1]), float(words[2][:-1])] == pytest.approx(aim_deg, abs=0.5)
+    assert words[3] == ("down" if z < 0 else "up")
     np.testing.assert_allclose(np.loadtxt(out)[1:4], T.translation, atol=0.003)
     drawn = cv2.imread(str(picture))
     assert drawn.shape[1] > 1000

@@ -38,16 +38,19 @@ def _told(world: "ArenaWorld") -> list[str]:
     """Return the camera's place and the floor markers' for people."""
     import numpy as np
 
+    from tagmetry.cli.deviations import decimals_of
+
     x_m, y_m, z_m = world.view.T_world_camera.translation
     deviation_mm = 1000 * np.sqrt(np.diag(world.view.covariance)[:3])
     lean_deg = np.degrees(np.arccos(-world.view.T_world_camera.rotation.as_matrix()[2, 2]))
-    sd = " ".join(f"{value:.1f}" for value in deviation_mm)
-    place = f"camera at x {x_m:.3f} y {y_m:.3f} z {z_m:.3f} m (+-{sd} mm)"
+    sd = " ".join(f"{value:.{decimals_of(value)}f}" for value in deviation_mm)
+    place = f"camera at x {x_m:z.4f} y {y_m:z.4f} z {z_m:z.4f} m (± {sd} mm)"
     lines = [f"{place}, {lean_deg:.1f} degrees from straight down"]
     for one in world.floor.markers:
         x_m, y_m, _ = one.T_world_marker.translation
         turn_deg = np.degrees(one.T_world_marker.rotation.as_euler("zyx")[0])
         sd_mm = 1000 * np.sqrt(np.trace(one.covariance[:2, :2]))
-        known = f"+-{sd_mm:.2f} mm" if sd_mm > 0 else "as given"
-        lines.append(f"floor marker {one.id}: x {x_m:.4f} y {y_m:.4f} m, {turn_deg:.2f}°, {known}")
+        known = f"± {sd_mm:.{decimals_of(sd_mm)}f} mm" if sd_mm > 0 else "as given"
+        at = f"x {x_m:z.5f} y {y_m:z.5f} m"
+        lines.append(f"floor marker {one.id}: {at}, {turn_deg:z.2f}°, {known}")
     return lines

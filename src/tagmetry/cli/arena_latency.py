@@ -49,7 +49,7 @@ def latency(
     if found.why_not:
         raise InputError(f"robot {robot}: no delay can be told: {found.why_not}")
     typer.echo(
-        f"robot {robot}: {1000 * found.delay_s:.1f} ms (+-{1000 * found.sd_s:.1f}) from command to "
+        f"robot {robot}: {1000 * found.delay_s:.1f} ms (± {1000 * found.sd_s:.1f}) from command to "
         f"image, turned {found.gain:.2f} of what it was told; "
         f"tagmetry arena run --lead {found.delay_s:.3f}"
     )

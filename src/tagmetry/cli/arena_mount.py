@@ -77,14 +77,14 @@ def _measured(
     turn, known = robot.mount.turn_rad, "as it was"
     if driving:
         found = turn_from_drive(_places(driving, robot, world), spin)
-        turn, known = found.value, f"+-{np.degrees(found.sd):.2f}"
+        turn, known = found.value, f"± {np.degrees(found.sd):.2f}"
     forward_m, left_m = spin.forward_left_m(turn)
     sd_mm = 1000 * np.sqrt(np.trace(spin.covariance))
-    told = f"{high.value:.4f} +-{high.sd:.4f} m over the floor"
+    told = f"{high.value:.4f} ± {high.sd:.4f} m over the floor"
     return "\n".join(
         [
             f"# {len(turning)} images of a turn: {1000 * spin.rms_m:.2f} mm from a circle",
-            f"forward_m: {forward_m:.4f}  # +-{sd_mm:.2f} mm",
+            f"forward_m: {forward_m:.4f}  # ± {sd_mm:.2f} mm",
             f"left_m: {left_m:.4f}",
             f"turn_deg: {np.degrees(turn):.2f}  # {known}",
             f"# by its size the marker is {told}; the file says {robot.mount.height_m:.4f}",

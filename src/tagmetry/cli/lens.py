@@ -66,12 +66,13 @@ def demo(
     from tagmetry.pipeline.lens.demonstration import demonstrated
 
     depth_m = parse_length_m(depth)
+    steps = demonstrated(depth_m, turn, seed)
     typer.echo("calibrating the simulated webcam at 31 focus values ...", err=True)
-    last = told(demonstrated(depth_m, turn, seed), out, json_=json_)
+    last = told(steps, out, json_=json_)
     if last is not None and last.found is not None and not json_:
         error_m = last.found.depth_m - depth_m
         typer.echo(
-            f"true depth {1000 * depth_m:.1f} mm: error {1e6 * error_m:+.0f} um "
+            f"true depth {1000 * depth_m:.1f} mm: error {1e6 * error_m:+.0f} µm "
             f"({100 * error_m / depth_m:+.3f} %), {abs(error_m) / last.found.depth_sd_m:.1f} "
             "stated deviations"
         )

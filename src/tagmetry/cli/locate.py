@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from tagmetry.cli.deviations import decimals_of
 from tagmetry.cli.options import CameraFile, Inverted, Json, Size, check_png
 
 if TYPE_CHECKING:
     from tagmetry.camera import Image
+    from tagmetry.geometry import Array, RigidTransform
     from tagmetry.localize import MarkerMap, PlanarRobot
     from tagmetry.pipeline.location import Located, Location
 
@@ -149,16 +151,12 @@ def _images(sources: list[str], task: "Location") -> Generator["Image"]:
 
 def _told(found: "Located") -> str:
     """Return one line for people."""
-    import numpy as np
-
     head = f"{found.source} [{found.sequence}]:"
     T = found.T_world_camera
     if T is None:
         return f"{head} no pose: {found.why}"
-    x_m, y_m, z_m = T.translation
-    deviation_mm = 1000 * np.sqrt(np.diag(found.covariance)[:3].sum())
     count = len(found.used)
-    told = f"{head} x {x_m:.3f} y {y_m:.3f} z {z_m:.3f} m (+-{deviation_mm:.1f} mm), "
+    told = f"{head} {_place(T.translation, found.covariance)}, {_aim(T, found.covariance)}, "
     told += f"{count} marker{'' if count == 1 else 's'}"
     if found.age_s > 0:
         told += f", {found.age_s:.2f} s after the last"
@@ -167,6 +165,26 @@ def _told(found: "Located") -> str:
     if found.rejected:
         told += f", {len(found.rejected)} not used"
     return told
+
+
+def _place(p_world: "Array", covariance: "Array") -> str:
+    """Return a camera's place with one deviation of it as a distance."""
+    deviation_mm = 1000 * float(covariance.diagonal()[:3].sum() ** 0.5)
+    decimals = decimals_of(deviation_mm)
+    x, y, z = (f"{value:z.{decimals + 3}f}" for value in p_world)
+    return f"x {x} y {y} z {z} m (± {deviation_mm:.{decimals}f} mm)"
+
+
+def _aim(T_world_camera: "RigidTransform", covariance: "Array") -> str:
+    """Return where a camera looks: degrees from the world's x toward y, and up or down."""
+    import numpy as np
+
+    x, y, z = T_world_camera.rotation.as_matrix()[:, 2]
+    round_deg, up_deg = np.degrees([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))])
+    deviation_deg = np.degrees(np.sqrt(covariance.diagonal()[3:].sum()))
+    decimals = decimals_of(deviation_deg)
+    height = f"{abs(up_deg):.{decimals}f}° {'down' if up_deg < 0 else 'up'}"
+    return f"looks {round_deg:z.{decimals}f}° round, {height} (± {deviation_deg:.{decimals}f}°)"
 
 
 def _draw(path: Path, marker_map: "MarkerMap", way: list["Located"]) -> None:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from tagmetry.cli.deviations import with_deviation
 from tagmetry.detect import Rejection
 from tagmetry.pose import MarkerPose
 from tagmetry.record import ImageResult, MarkerResult, format_line
@@ -54,9 +55,8 @@ def _pose_text(pose: MarkerPose | None) -> str:
         return ", no pose"
     x_mm, y_mm, z_mm = 1000 * np.asarray(pose.best.T_camera_marker.translation)
     sx_mm, sy_mm, sz_mm = 1000 * np.sqrt(np.diag(pose.covariance)[:3])
-    return (
-        f", x {x_mm:+.1f} ± {sx_mm:.1f}, y {y_mm:+.1f} ± {sy_mm:.1f}, z {z_mm:.1f} ± {sz_mm:.1f} mm"
-    )
+    x, y = with_deviation(x_mm, sx_mm, "+"), with_deviation(y_mm, sy_mm, "+")
+    return f", x {x}, y {y}, z {with_deviation(z_mm, sz_mm)} mm"
 
 
 def _remarks(marker: MarkerResult) -> list[str]:

@@ -105,8 +105,9 @@ def load_lens(path: str | Path) -> LensFile:
         InputError: One of the files is missing or broken.
     """
     path = Path(path)
+    table = load_table(path)
     with named_errors(path):
-        found = checked(_Lens, load_table(path))
+        found = checked(_Lens, table)
         law = _law(found.law)
         lag = Lag(found.lag.images, found.lag.focus_per_image)
     bank = load_bank(path.parent / found.bank)
@@ -142,6 +143,16 @@ def _law(found: _Law) -> LogLaw | DioptreLaw | SplineLaw:
         raise InputError(f"law.numbers: expected two, found {len(found.numbers)}")
     first, second = found.numbers
     return LogLaw(first, second) if found.kind == "log" else DioptreLaw(first, second)
+
+
+def law_line(law: LogLaw | DioptreLaw | SplineLaw) -> str:
+    """Return the line of a lens file that says a law."""
+    return f"law: {{{', '.join(f'{key}: {_shown(one)}' for key, one in _law_table(law).items())}}}"
+
+
+def _shown(value: object) -> str:
+    """Return a word as it is, numbers with six digits."""
+    return f"[{', '.join(f'{x:.6g}' for x in value)}]" if isinstance(value, list) else str(value)
 
 
 def _law_table(law: LogLaw | DioptreLaw | SplineLaw) -> Table:

@@ -51,7 +51,7 @@ def missing_foci(bank: CameraBank | None, control: Control, step: float) -> tupl
     Raises:
         InputError: The step is not positive.
     """
-    if not step > 0:
+    if not 0 < step < float("inf"):
         raise InputError(f"the step of the focus must be positive, got {step}")
     count = int((control.most - control.least) / step + 1e-9) + 1
     wanted = [control.nearest(control.most - step * n) for n in range(count)]

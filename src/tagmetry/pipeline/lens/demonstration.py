@@ -39,7 +39,12 @@ def demonstrated(depth_m: float, turn_deg: float, seed: int) -> Iterator[LensSte
             f"expected a depth of {_LEAST_M} to {_MOST_M} m and a turn of at most "
             f"{_MOST_TURN_DEG:g} degrees, got {depth_m} m and {turn_deg:g}"
         )
+    return _steps(depth_m, turn_deg, seed)
+
+
+def _steps(depth_m: float, turn_deg: float, seed: int) -> Iterator[LensStep]:
+    """Calibrate the webcam when the first step is asked for, then measure."""
     at = Still(facing_camera(depth_m, turn_deg))
     camera = TwinCamera(markers_before_camera(BeforeCamera(at)), webcam(), seed=seed, quick=True)
     marker = MarkerKind(_SIZE_M, 8)
-    return measure_marker(camera, LensTask(webcam_lens(), Detector(["tag36h11"]), marker))
+    yield from measure_marker(camera, LensTask(webcam_lens(), Detector(["tag36h11"]), marker))
