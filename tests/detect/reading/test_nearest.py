@@ -12,7 +12,7 @@ from tagmetry.markers import MarkerFamily, family
 from tagmetry.markers.packed import packed
 
 RNG = np.random.default_rng(0)
-LARGE = ["tagStandard41h12", "tagStandard52h13", "tagCustom48h12", "tagCircle49h12"]
+LARGE = ["tag36h11", "tagStandard41h12", "tagStandard52h13", "tagCustom48h12", "tagCircle49h12"]
 
 
 @pytest.mark.parametrize("name", ["tag36h11", "4x4_50", "7x7_1000"])
@@ -78,8 +78,9 @@ def test_what_no_code_is_near_to_is_far_on_shelves_too() -> None:
     assert hammings[0] > MOST_WRONG_BITS
 
 
-def test_small_families_have_no_shelves() -> None:
-    assert shelves_of(family("tag36h11")) is None
+@pytest.mark.parametrize("name", ["tag25h9", "4x4_250", "5x5_1000"])
+def test_few_codes_and_short_ones_have_no_shelves(name: str) -> None:
+    assert shelves_of(family(name)) is None
 
 
 def readings_of(families: list[MarkerFamily]) -> Readings:

@@ -102,11 +102,9 @@ def read(grey: GreyPixels, corners_px: Array, layout: Layout) -> Readings:
         One reading each.
     """
     corners_px = np.ascontiguousarray(corners_px)
-    margins, measures = (
-        np.zeros((len(corners_px), layout.bit_count)),
-        np.zeros((len(corners_px), 5)),
-    )
-    read_each(grey, corners_px, square_to_quad(corners_px), _spots(layout), margins, measures)
+    count = len(corners_px)
+    margins, measures = np.zeros((count, layout.bit_count)), np.zeros((count, 5))
+    read_each(grey, corners_px, _spots(layout), margins, measures)
     return Readings(margins, packed(margins > 0), measures)
 
 

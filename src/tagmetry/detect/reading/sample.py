@@ -148,6 +148,20 @@ def write_means(grey: GreyPixels, H: Array, taps: Narrow, room: Room, means: Arr
         means[k] = _f32(0.25) * (above + below)
 
 
+@njit(cache=True, nogil=True, error_model="numpy")
+def write_square_to_quad(square_px: Array, H: Array) -> None:
+    """Write what `geometry.square_to_quad` returns of one square, shapes (4, 2) and (3, 3)."""
+    x, y = square_px[:, 0], square_px[:, 1]
+    dx1, dy1, dx2, dy2 = x[1] - x[2], y[1] - y[2], x[3] - x[2], y[3] - y[2]
+    sum_x, sum_y = x[0] - x[1] + x[2] - x[3], y[0] - y[1] + y[2] - y[3]
+    determinant = dx1 * dy2 - dx2 * dy1
+    g = (sum_x * dy2 - dx2 * sum_y) / determinant
+    h = (dx1 * sum_y - sum_x * dy1) / determinant
+    H[0, 0], H[0, 1], H[0, 2] = x[1] - x[0] + g * x[1], x[3] - x[0] + h * x[3], x[0]
+    H[1, 0], H[1, 1], H[1, 2] = y[1] - y[0] + g * y[1], y[3] - y[0] + h * y[3], y[0]
+    H[2, 0], H[2, 1], H[2, 2] = g, h, 1.0
+
+
 @njit(cache=True, nogil=True, error_model="numpy")  # on the horizon 1 / 0 is no place
 def _place(H: Array, taps: Narrow, room: Room) -> None:
     """Write the pixels of points of the unit square."""

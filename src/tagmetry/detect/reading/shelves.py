@@ -1,4 +1,4 @@
-"""Of many thousand codes, those that hardly differ from what was read.
+"""Of many codes, those that hardly differ from what was read.
 
 Each code stands on four shelves, one for each quarter of its bits, at the place that these bits
 name. Of a code read with few wrong bits, one quarter at least has none wrong or one: it stands on
@@ -22,7 +22,8 @@ from tagmetry.markers.packed import Words
 
 MOST_WRONG_BITS = 7  # with eight, two could be wrong in every quarter
 _QUARTERS = 4
-_WORTH = 8000  # codes; of fewer all are compared in as much time
+_DEARER = 5  # times as long takes a code on a shelf as one of all in a row
+_PLACE = 2  # codes in whose time a place on a shelf is looked up
 _REMEMBERED = 8  # families
 
 
@@ -71,9 +72,16 @@ class Shelves:
 @lru_cache(_REMEMBERED)
 def shelves_of(family: MarkerFamily) -> Shelves | None:
     """Return a family's codes on shelves; None where these are not worth it, or too long."""
-    if len(family.packed_codes) < _WORTH or family.packed_codes.shape[1] > 1:
+    codes, bit_count = family.packed_codes, family.layout.bit_count
+    if codes.shape[1] > 1 or not _are_worth_it(len(codes), _quarter_bits(bit_count)):
         return None
-    return Shelves.of(family.packed_codes, family.layout.bit_count)
+    return Shelves.of(codes, bit_count)
+
+
+def _are_worth_it(count: int, bits: int) -> bool:
+    """Say whether so many codes with so many bits in a quarter are compared sooner on shelves."""
+    places = _QUARTERS * (bits + 1)
+    return bool(_DEARER * places * (_PLACE + count / 2**bits) < count)
 
 
 def _in_order(words: Words, bit_count: int) -> Words:

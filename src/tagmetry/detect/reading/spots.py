@@ -14,6 +14,7 @@ from tagmetry.detect.reading.sample import (
     Room,
     new_room,
     write_means,
+    write_square_to_quad,
     write_steps,
 )
 from tagmetry.geometry.arrays import Array, GreyPixels, IntArray
@@ -60,6 +61,7 @@ class _Desk(NamedTuple):
 
     Attributes:
         room: For places to look up.
+        H: From the unit square to pixels, shape (3, 3).
         seen: Values of frame, shape (b + w,).
         cells: How clearly frame and bits are white, shape (f + k,).
         middle: What is midway between black and white at frame and bits, shape (f + k,).
@@ -67,6 +69,7 @@ class _Desk(NamedTuple):
     """
 
     room: Room
+    H: Array
     seen: Array
     cells: Array
     middle: Array
@@ -75,38 +78,37 @@ class _Desk(NamedTuple):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def read_each(
-    grey: GreyPixels, corners_px: Array, H: Array, spots: Spots, margins: Array, measures: Array
+    grey: GreyPixels, corners_px: Array, spots: Spots, margins: Array, measures: Array
 ) -> None:
     """Write how n squares read; of those without a border no bits and no outlines.
 
     Args:
         grey: 8-bit image.
         corners_px: Shape (n, 4, 2).
-        H: From the unit square to pixels, shape (n, 3, 3).
         spots: Where to look.
         margins: For the result: those of the bits, shape (n, k).
         measures: For the result: border share, contrast, border margin, sharp outline, outline,
             shape (n, 5).
     """
     desk = _new_desk(spots)
-    for i in range(len(H)):
-        write_means(grey, H[i], spots.frame_taps, desk.room, desk.seen)
+    for i in range(len(corners_px)):
+        write_square_to_quad(corners_px[i], desk.H)
+        write_means(grey, desk.H, spots.frame_taps, desk.room, desk.seen)
         measures[i, 1] = _level(desk, spots)
         half = measures[i, 1] / 2
         measures[i, 0], measures[i, 2] = _border(desk, half, spots)
         if measures[i, 0] >= 1 - BORDER_ERRORS:
-            write_means(grey, H[i], spots.bit_taps, desk.room, desk.cells[spots.frame :])
+            write_means(grey, desk.H, spots.bit_taps, desk.room, desk.cells[spots.frame :])
             _write_bits(desk, half, spots, margins[i])
             _write_outline(grey, corners_px[i], desk, half, spots, measures[i, 3:])
 
 
 @njit(cache=True, nogil=True)
 def _new_desk(spots: Spots) -> _Desk:
-    seen, cells = len(spots.black_plane) + len(spots.white_plane), len(spots.plane_terms)
     places = max(spots.frame_taps.shape[1], spots.bit_taps.shape[1], 2 * STEPS)
-    return _Desk(
-        new_room(places), np.empty(seen), np.empty(cells), np.empty(cells), np.empty(STEPS)
-    )
+    seen = np.empty(len(spots.black_plane) + len(spots.white_plane))
+    cells, middle = np.empty(len(spots.plane_terms)), np.empty(len(spots.plane_terms))
+    return _Desk(new_room(places), np.empty((3, 3)), seen, cells, middle, np.empty(STEPS))
 
 
 @njit(cache=True, nogil=True)

@@ -21,6 +21,7 @@ from tagmetry.detect.reading.sample import (
     Room,
     new_room,
     write_means,
+    write_square_to_quad,
     write_steps,
 )
 from tagmetry.detect.track.nudge import PLACES, Bench, new_bench, nudge
@@ -94,6 +95,7 @@ class _Desk(NamedTuple):
     Attributes:
         room: For places to look up.
         bench: To move its square.
+        H: From the unit square to pixels, shape (3, 3).
         values: At its places, shape (k,).
         expected: Shape (k,).
         steps: Across its sides, shape (40,).
@@ -101,6 +103,7 @@ class _Desk(NamedTuple):
 
     room: Room
     bench: Bench
+    H: Array
     values: Array
     expected: Array
     steps: Array
@@ -132,8 +135,8 @@ def see_each(grey: GreyPixels, asked: Asked, spots: Spots, seen: Seen) -> None:
 @njit(cache=True, nogil=True)
 def _new_desk(spots: Spots) -> _Desk:
     room = new_room(max(spots.taps.shape[1], PLACES, 2 * STEPS))
-    count = len(spots.light)
-    return _Desk(room, new_bench(room), np.empty(count), np.empty(count), np.empty(STEPS))
+    values, expected = np.empty(len(spots.light)), np.empty(len(spots.light))
+    return _Desk(room, new_bench(room), np.empty((3, 3)), values, expected, np.empty(STEPS))
 
 
 @njit(cache=True, nogil=True)
@@ -190,7 +193,8 @@ def _see(
 ) -> None:
     """Write what the square shows that `seen` has for marker i."""
     square_px, measures = seen.corners_px[i], seen.measures[i]
-    write_means(grey, _square_to_quad(square_px), spots.taps, desk.room, desk.values)
+    write_square_to_quad(square_px, desk.H)
+    write_means(grey, desk.H, spots.taps, desk.room, desk.values)
     half, correlation = _write_margins(desk.values, desk.expected, spots.light, seen.margins[i])
     measures[0], measures[1] = 2 * light * half, light * correlation
     _write_shares(seen.margins[i], desk.expected, spots, measures[2:])
@@ -240,20 +244,3 @@ def _write_shares(margins: Array, expected: Array, spots: Spots, shares: Array) 
         clear += min(max(right, -1.0), 1.0) if k < end else 0.0
     shares[0], shares[1] = wrong, min(max(clear / end, 0.0), 1.0)
     shares[2], shares[3] = framed / (end - bits), quiet / spots.quiet if spots.quiet else 1.0
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _square_to_quad(square_px: Array) -> Array:
-    """Return what `geometry.square_to_quad` does of one square, shape (3, 3)."""
-    H = np.empty((3, 3))
-    dx1, dy1 = square_px[1] - square_px[2]
-    dx2, dy2 = square_px[3] - square_px[2]
-    sum_x, sum_y = square_px[0] - square_px[1] + square_px[2] - square_px[3]
-    determinant = dx1 * dy2 - dx2 * dy1
-    g = (sum_x * dy2 - dx2 * sum_y) / determinant
-    h = (dx1 * sum_y - sum_x * dy1) / determinant
-    H[:2, 0] = square_px[1] - square_px[0] + g * square_px[1]
-    H[:2, 1] = square_px[3] - square_px[0] + h * square_px[3]
-    H[:2, 2] = square_px[0]
-    H[2, 0], H[2, 1], H[2, 2] = g, h, 1.0
-    return H
