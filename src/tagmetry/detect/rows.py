@@ -16,6 +16,8 @@ class Rows:
 
     def at(self, rows: IntArray | BoolArray) -> Self:
         """Return some of the rows."""
+        if rows.dtype == np.bool_ and rows.all():
+            return self
         return type(self)(*(values[rows] for values in vars(self).values()))
 
     def and_also(self, others: Self) -> Self:

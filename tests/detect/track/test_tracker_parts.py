@@ -109,6 +109,23 @@ def test_squares_are_moved_onto_the_edges(shift_px: float) -> None:
         assert np.abs(again - truth).max() < 0.4
 
 
+def test_whatever_the_prediction_squares_come_to_lie_on_the_edges() -> None:
+    shown = [
+        Shown(k, 40 + 48 * k, 50 + 35 * (k % 5), side_px=36, turn_deg=31 * k) for k in range(6)
+    ]
+    grey, rng, ids = (
+        image(shown, look=Look(noise=3.0)),
+        np.random.default_rng(7),
+        np.arange(240) % 6,
+    )
+    truth = np.stack([shown[k].corners_px() for k in ids])
+    predicted_px = truth + rng.uniform(-3, 3, (240, 1, 2)) + rng.normal(0, 0.5, truth.shape)
+    found = look(grey, family("tag36h11"), ids, predicted_px, np.full(240, 3.0), ids < 0)
+    off_px = np.abs(found.corners_px - truth).max(axis=(1, 2))
+    assert off_px.max() < 1.6
+    assert (off_px > 0.5).sum() <= 2
+
+
 @pytest.mark.parametrize("name", ["tag36h11", "4x4_50", "7x7_50", "tag25h9"])
 def test_markers_read_as_the_detector_reads_them(name: str) -> None:
     own, rng = family(name), np.random.default_rng(2)

@@ -7,7 +7,7 @@ import numpy as np
 from tagmetry.detect.choose import Rules
 from tagmetry.detect.places import side_lengths
 from tagmetry.detect.track.blurred import recognised
-from tagmetry.detect.track.greyed import Greyed, boxes_around
+from tagmetry.detect.track.greyed import Greyed
 from tagmetry.detect.track.known import Known
 from tagmetry.detect.track.seen import Seen
 from tagmetry.detect.track.sight import look, nudge_reach_px
@@ -34,8 +34,8 @@ def as_expected(
         known: The markers that are looked for.
     """
     seen = Seen.nothing()
-    for place in np.unique(known.tracks.families):
-        rows = _within(known, int(place), image.size_px)
+    for place in sorted(set(known.tracks.families.tolist())):
+        rows = _within(known, place, image.size_px)
         if len(rows):
             seen = seen.and_also(_of_one_family(image, families, rules, known, rows))
     return seen.one_per_place()
@@ -62,7 +62,7 @@ def _of_one_family(
     cells = family.layout.side_cells
     pad_px = _AROUND_CELLS * side_lengths(corners_px).max(axis=1) / cells + _AROUND_PX
     pad_px += nudge_reach_px(corners_px, deviation_px, cells)
-    grey = image.look_at(boxes_around(corners_px, pad_px, image.size_px))
+    grey = image.look_around(corners_px, pad_px)
     is_inverted = known.tracks.is_inverted[rows]
     sights = look(grey, family, known.tracks.ids[rows], corners_px, deviation_px, is_inverted)
     forgiven = family.forgiven_bits if rules.forgive_bits is None else rules.forgive_bits

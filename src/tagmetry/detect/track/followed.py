@@ -23,15 +23,15 @@ def followed(known: Known, seen: Seen, exact: Exact, time_s: float, forget_s: fl
         time_s: Time of this image.
         forget_s: For how long markers are followed that are not seen.
     """
-    corners_px, looks = exact.corners_px, exact.looks
-    continues = _go_on(known, seen, corners_px)
-    rows, new = seen.rows[continues], seen.at(~continues)
-    going_on = moved(known.tracks.at(rows), known.corners_px[rows], corners_px[continues], time_s)
-    begun = Tracks.begun(new.families, new.ids, new.is_inverted, corners_px[~continues], time_s)
-    there = going_on.and_also(begun)
-    looks = np.concatenate([looks[continues], looks[~continues]])
-    waiting = _waiting(known.tracks, seen, time_s - forget_s)
-    return replace(there, looks=looks).and_also(waiting)
+    corners_px, continues = exact.corners_px, _go_on(known, seen, exact.corners_px)
+    rows = seen.rows[continues]
+    tracks = moved(known.tracks.at(rows), known.corners_px[rows], corners_px[continues], time_s)
+    tracks = replace(tracks, looks=exact.looks[continues])
+    if not continues.all():
+        new, at = seen.at(~continues), exact.at(~continues)
+        begun = Tracks.begun(new.families, new.ids, new.is_inverted, at.corners_px, time_s)
+        tracks = tracks.and_also(replace(begun, looks=at.looks))
+    return tracks.and_also(_waiting(known.tracks, seen, time_s - forget_s))
 
 
 def _go_on(known: Known, seen: Seen, corners_px: Array) -> BoolArray:

@@ -28,6 +28,12 @@ class Greyed:
         """(width, height)."""
         return self.grey.shape[1], self.grey.shape[0]
 
+    def look_around(self, corners_px: Array, pad_px: Array) -> GreyPixels:
+        """Return the image with what is around squares converted; see `boxes_around`."""
+        if self._is_whole:
+            return self.grey
+        return self.look_at(boxes_around(corners_px, pad_px, self.size_px))
+
     def look_at(self, boxes: IntArray) -> GreyPixels:
         """Return the image with boxes (n, 4) converted: left, top, and past the right and bottom.
 

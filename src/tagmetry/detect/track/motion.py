@@ -10,8 +10,9 @@ image alone.
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numba import njit
 
-from tagmetry.detect.track.tracks import Tracks
+from tagmetry.detect.track.tracks import Spins, Tracks
 from tagmetry.geometry import Array
 
 _LEAST_PX = 0.3  # standard deviation of the best prediction
@@ -42,11 +43,7 @@ def predicted(tracks: Tracks, time_s: float, fastest_px_s: float) -> Predicted:
         fastest_px_s: No marker is faster when it is first seen.
     """
     since_s = time_s - tracks.seen_s
-    middle = tracks.corners_px.mean(axis=1)
-    around = _complex(tracks.corners_px - middle[:, None])
-    around = around * np.exp(tracks.spin_s * since_s)[:, None]
-    ahead = middle + tracks.drift_px_s * since_s[:, None]
-    corners_px = np.stack([around.real, around.imag], axis=2) + ahead[:, None]
+    corners_px = _ahead(tracks.corners_px, tracks.drift_px_s, tracks.spin_s, since_s)
     doubt_px = np.where(
         tracks.is_new, fastest_px_s / _SIGMAS * since_s, tracks.shake_px_s2 * since_s**2
     )
@@ -63,26 +60,57 @@ def moved(tracks: Tracks, expected_px: Array, corners_px: Array, time_s: float) 
         time_s: Time of this image.
     """
     since_s = time_s - tracks.seen_s
-    before, now = tracks.corners_px.mean(axis=1), corners_px.mean(axis=1)
-    drift_px_s = (now - before) / since_s[:, None]
-    z_before = _complex(tracks.corners_px - before[:, None])
-    z_now = _complex(corners_px - now[:, None])
-    similar = (z_before.conj() * z_now).sum(axis=1) / (abs(z_before) ** 2).sum(axis=1)
+    drift_px_s, spin_s = _rates(tracks.corners_px, corners_px, since_s)
     off_px = np.sqrt(((corners_px - expected_px) ** 2).sum(axis=2).mean(axis=1))
-    first_px_s2 = _UNSTEADY * np.linalg.norm(drift_px_s, axis=1) / since_s
+    first_px_s2 = _UNSTEADY * np.hypot(drift_px_s[:, 0], drift_px_s[:, 1]) / since_s
     later_px_s2 = np.maximum(off_px / since_s**2, _FADING * tracks.shake_px_s2)
     return replace(
         tracks,
         corners_px=corners_px,
         seen_s=np.full(len(tracks), time_s),
         drift_px_s=drift_px_s,
-        spin_s=np.log(similar) / since_s,
+        spin_s=spin_s,
         shake_px_s2=np.where(tracks.is_new, first_px_s2, later_px_s2),
         is_new=np.zeros(len(tracks), dtype=bool),
         missed=np.zeros(len(tracks), dtype=np.int64),
     )
 
 
-def _complex(places: Array) -> "np.ndarray[tuple[int, ...], np.dtype[np.complex128]]":
-    """Return places (..., 2) as x + iy."""
-    return np.asarray(places[..., 0] + 1j * places[..., 1])
+@njit(cache=True, nogil=True)
+def _ahead(corners_px: Array, drift_px_s: Array, spin_s: Spins, since_s: Array) -> Array:
+    """Return squares that went on drifting and turning for some times, shape (n, 4, 2)."""
+    ahead_px = np.empty_like(corners_px)
+    for i in range(len(corners_px)):
+        middle, turn = _middle(corners_px[i]), np.exp(spin_s[i] * since_s[i])
+        drift = complex(drift_px_s[i, 0], drift_px_s[i, 1]) * since_s[i]
+        for k in range(4):
+            around = complex(corners_px[i, k, 0], corners_px[i, k, 1]) - middle
+            there = middle + drift + around * turn
+            ahead_px[i, k, 0], ahead_px[i, k, 1] = there.real, there.imag
+    return ahead_px
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _rates(before_px: Array, now_px: Array, since_s: Array) -> tuple[Array, Spins]:
+    """Return how squares drifted and turned from one place to another, shapes (n, 2) and (n,)."""
+    drift_px_s, spin_s = np.empty((len(now_px), 2)), np.empty(len(now_px), np.complex128)
+    for i in range(len(now_px)):
+        before, now = _middle(before_px[i]), _middle(now_px[i])
+        similar, size = 0j, 0.0
+        for k in range(4):
+            was = complex(before_px[i, k, 0], before_px[i, k, 1]) - before
+            similar += was.conjugate() * (complex(now_px[i, k, 0], now_px[i, k, 1]) - now)
+            size += was.real**2 + was.imag**2
+        drift = (now - before) / since_s[i]
+        drift_px_s[i, 0], drift_px_s[i, 1] = drift.real, drift.imag
+        spin_s[i] = np.log(similar / size) / since_s[i]
+    return drift_px_s, spin_s
+
+
+@njit(cache=True, nogil=True)
+def _middle(square_px: Array) -> complex:
+    """Return the middle of a square as x + iy."""
+    middle = 0j
+    for k in range(4):
+        middle += complex(square_px[k, 0], square_px[k, 1]) / 4
+    return middle

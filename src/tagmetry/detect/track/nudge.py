@@ -12,9 +12,9 @@ from numba import njit
 
 from tagmetry.detect.reading.sample import Narrow, Room, look_up, new_room
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import GreyPixels
+from tagmetry.geometry.arrays import GreyPixels, IntArray
 
-_SCANS = 8  # of each side
+_SCANS = 8  # profiles of a side
 _HALF = _SCANS // 2
 _AT = (np.arange(_SCANS) + 0.5) / _SCANS - 0.5  # along a side, from its middle
 _REACH = 8  # steps of a profile to each side
@@ -23,7 +23,9 @@ _COUNT = 2 * _REACH + 1
 _READ = _COUNT + 2 * _APART
 _SHARE = 0.6  # of the steepest step: its middle is midway between where it falls below
 _LEAST_SINE = 0.1
-PLACES = 4 * _SCANS * _READ  # that are looked up of a square
+PLACES = _SCANS * _READ  # that are looked up of a side: the first of each profile, the second, …
+_ALONG = np.tile(_AT + 0.5, _READ).astype(np.float32)
+_ACROSS = np.repeat(np.arange(_READ) - _REACH - _APART, _SCANS).astype(np.float32)
 
 
 class Bench(NamedTuple):
@@ -31,13 +33,15 @@ class Bench(NamedTuple):
 
     Attributes:
         room: For `PLACES` places at least.
-        rises: Of a profile.
-        shifts: Of the profiles of a side.
+        rises: Of the profiles of a side, the first of each, the second, …
+        best: Where each rises most.
+        shifts: Where that is, in steps from its middle.
         lines: Of the sides, (point, direction), shape (4, 4).
     """
 
     room: Room
-    rises: Array
+    rises: Narrow
+    best: IntArray
     shifts: Array
     lines: Array
 
@@ -45,7 +49,8 @@ class Bench(NamedTuple):
 @njit(cache=True, nogil=True)
 def new_bench(room: Room) -> Bench:
     """Return a bench with a room."""
-    return Bench(room, np.empty(_COUNT), np.empty(_SCANS), np.empty((4, 4)))
+    rises, best = np.empty(_COUNT * _SCANS, np.float32), np.empty(_SCANS, np.int64)
+    return Bench(room, rises, best, np.empty(_SCANS), np.empty((4, 4)))
 
 
 @njit(cache=True, nogil=True)
@@ -69,77 +74,65 @@ def nudge(
     grey: GreyPixels, square_px: Array, reach_px: float, sign: float, bench: Bench, moved: Array
 ) -> None:
     """Write one square, (4, 2), moved onto the edges within reach; arguments as of `nudged`."""
-    step_px = reach_px / _REACH
     for side in range(4):
-        _place_profiles(square_px, side, step_px, bench.room)
-    look_up(grey, bench.room, PLACES)
-    for side in range(4):
-        _find_side(square_px, side, step_px, sign, bench)
+        x, y = square_px[side, 0], square_px[side, 1]
+        along_x, along_y = square_px[side - 3, 0] - x, square_px[side - 3, 1] - y
+        step = reach_px / _REACH / max(np.hypot(along_x, along_y), 1e-9)
+        out_x, out_y = step * along_y, -step * along_x
+        _place_profiles((x, y), (along_x, along_y), (out_x, out_y), bench.room)
+        look_up(grey, bench.room, PLACES)
+        _write_shifts(sign, bench)
+        start, end = _ends(bench.shifts)
+        turn, line = end - start, bench.lines[side]
+        line[0], line[1] = x + start * out_x, y + start * out_y
+        line[2], line[3] = along_x + turn * out_x, along_y + turn * out_y
     _meet(bench.lines, square_px, moved)
 
 
 @njit(cache=True, nogil=True)
-def _place_profiles(square_px: Array, side: int, step_px: float, room: Room) -> None:
+def _place_profiles(
+    start: tuple[float, float], along: tuple[float, float], out: tuple[float, float], room: Room
+) -> None:
     """Write the places of the profiles across a side, from the inside out."""
-    start_x, start_y, along_x, along_y = _side(square_px, side)
-    out_x, out_y = _outward(along_x, along_y, step_px)
-    for scan in range(_SCANS):
-        first = (side * _SCANS + scan) * _READ
-        x, y = start_x + (0.5 + _AT[scan]) * along_x, start_y + (0.5 + _AT[scan]) * along_y
-        for k in range(_READ):
-            steps = k - (_REACH + _APART)
-            room.x[first + k], room.y[first + k] = x + steps * out_x, y + steps * out_y
+    x, y = np.float32(start[0]), np.float32(start[1])
+    along_x, along_y = np.float32(along[0]), np.float32(along[1])
+    out_x, out_y = np.float32(out[0]), np.float32(out[1])
+    for k in range(PLACES):
+        room.x[k] = x + _ALONG[k] * along_x + _ACROSS[k] * out_x
+        room.y[k] = y + _ALONG[k] * along_y + _ACROSS[k] * out_y
 
 
 @njit(cache=True, nogil=True)
-def _side(square_px: Array, side: int) -> tuple[float, float, float, float]:
-    """Return where a side starts, x and y, and what is added to come to its end."""
-    x, y, end = square_px[side, 0], square_px[side, 1], (side + 1) % 4
-    return x, y, square_px[end, 0] - x, square_px[end, 1] - y
-
-
-@njit(cache=True, nogil=True)
-def _outward(along_x: float, along_y: float, step_px: float) -> tuple[float, float]:
-    """Return a step across a side."""
-    length = max(np.hypot(along_x, along_y), 1e-9)
-    return step_px * along_y / length, -step_px * along_x / length
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _find_side(square_px: Array, side: int, step_px: float, sign: float, bench: Bench) -> None:
-    """Write (point, direction) of the line on which a side is seen."""
-    x, y, along_x, along_y = _side(square_px, side)
-    out_x, out_y = _outward(along_x, along_y, step_px)
+def _write_shifts(sign: float, bench: Bench) -> None:
+    """Write where the profiles of a side rise most, in steps from their middles."""
+    values, rises, best, wanted = bench.room.values, bench.rises, bench.best, np.float32(sign)
+    for k in range(_COUNT * _SCANS):
+        rises[k] = wanted * (values[k + 2 * _APART * _SCANS] - values[k])
+    best[:] = np.arange(_SCANS)
+    for k in range(_SCANS, _COUNT * _SCANS):
+        scan = k % _SCANS
+        best[scan] = k if rises[k] > rises[best[scan]] else best[scan]
     for scan in range(_SCANS):
-        first = (side * _SCANS + scan) * _READ
-        bench.shifts[scan] = _steepest(bench.room.values, first, sign, bench.rises)
-    start, end = _ends(bench.shifts)
-    turn = end - start
-    bench.lines[side, 0], bench.lines[side, 1] = x + start * out_x, y + start * out_y
-    bench.lines[side, 2], bench.lines[side, 3] = along_x + turn * out_x, along_y + turn * out_y
+        inside, outside = _falls(rises, best[scan], -_SCANS), _falls(rises, best[scan], _SCANS)
+        bench.shifts[scan] = 0.5 * (inside + outside) - _REACH
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _steepest(values: Narrow, first: int, sign: float, rises: Array) -> float:
-    """Return where a profile rises most, in steps from its middle; its rises are written."""
-    best = 0
-    for k in range(_COUNT):
-        rises[k] = sign * (values[first + k + 2 * _APART] - values[first + k])
-    for k in range(1, _COUNT):
-        best = k if rises[k] > rises[best] else best
-    return 0.5 * (_falls(rises, best, -1) + _falls(rises, best, 1)) - _REACH
+def _falls(rises: Narrow, best: int, way: int) -> float:
+    """Return at which step rises fall below a share of the best one.
 
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _falls(rises: Array, best: int, way: int) -> float:
-    """Return where rises fall below a share of the best one, going one way from it."""
-    least = _SHARE * rises[best]
-    k = best
-    while 0 <= k + way < _COUNT:
+    Args:
+        rises: Of all profiles of a side.
+        best: The best of one profile.
+        way: To the next of this profile, outward or inward.
+    """
+    least, k, end = _SHARE * rises[best], best, len(rises)
+    while 0 <= k + way < end:
         if rises[k + way] < least:
-            return float(k + way * (rises[k] - least) / (rises[k] - rises[k + way]))
+            past = (rises[k] - least) / (rises[k] - rises[k + way])
+            return float((k // _SCANS) + (past if way > 0 else -past))
         k += way
-    return float(k)
+    return float(k // _SCANS)
 
 
 @njit(cache=True, nogil=True)

@@ -30,6 +30,8 @@ from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
 _FINE_CELLS = 0.5  # how far edges are looked for once more
 _LEAST_FINE_PX = 1.5
+_FINE_TRIES = 3
+_STAYS_PX = 0.5  # a square that moves less is on its edges
 _CLEAR = 0.9  # correlation below which the place that was predicted is tried as well
 _EDGE_CELLS = 0.3  # how far inside and outside a side the image must differ
 
@@ -95,6 +97,7 @@ class _Desk(NamedTuple):
     Attributes:
         room: For places to look up.
         bench: To move its square.
+        before_px: Its corners before they are moved, shape (4, 2).
         H: From the unit square to pixels, shape (3, 3).
         values: At its places, shape (k,).
         expected: Shape (k,).
@@ -103,6 +106,7 @@ class _Desk(NamedTuple):
 
     room: Room
     bench: Bench
+    before_px: Array
     H: Array
     values: Array
     expected: Array
@@ -136,7 +140,8 @@ def see_each(grey: GreyPixels, asked: Asked, spots: Spots, seen: Seen) -> None:
 def _new_desk(spots: Spots) -> _Desk:
     room = new_room(max(spots.taps.shape[1], PLACES, 2 * STEPS))
     values, expected = np.empty(len(spots.light)), np.empty(len(spots.light))
-    return _Desk(room, new_bench(room), np.empty((3, 3)), values, expected, np.empty(STEPS))
+    before_px, H, steps = np.empty((4, 2)), np.empty((3, 3)), np.empty(STEPS)
+    return _Desk(room, new_bench(room), before_px, H, values, expected, steps)
 
 
 @njit(cache=True, nogil=True)
@@ -170,12 +175,29 @@ def _onto_edges(
     seen: Seen,
     i: int,
 ) -> None:
-    """Write a square moved onto the edges: from afar at first coarsely, then finely."""
-    moved_px = seen.corners_px[i]
-    nudge(grey, square_px, reach_px, sign, desk.bench, moved_px)
+    """Write a square moved onto the edges: from afar at first coarsely, then finely until it stays.
+
+    One side may be drawn to another edge as long as the others are not on theirs.
+    """
+    moved_px, before_px = seen.corners_px[i], desk.before_px
+    before_px[:] = square_px
+    nudge(grey, before_px, reach_px, sign, desk.bench, moved_px)
     fine_px = max(_FINE_CELLS * _cell_px(moved_px, spots.side_cells), _LEAST_FINE_PX)
-    if reach_px > fine_px:
-        nudge(grey, moved_px.copy(), fine_px, sign, desk.bench, moved_px)
+    for _ in range(_FINE_TRIES):
+        if reach_px <= fine_px and _farthest(before_px, moved_px) <= _STAYS_PX:
+            break
+        before_px[:], reach_px = moved_px, fine_px
+        nudge(grey, before_px, fine_px, sign, desk.bench, moved_px)
+
+
+@njit(cache=True, nogil=True)
+def _farthest(before_px: Array, after_px: Array) -> float:
+    """Return the most that a coordinate of the corners differs."""
+    most_px = 0.0
+    for k in range(4):
+        x, y = after_px[k, 0] - before_px[k, 0], after_px[k, 1] - before_px[k, 1]
+        most_px = max(most_px, abs(x), abs(y))
+    return most_px
 
 
 @njit(cache=True, nogil=True)

@@ -4,11 +4,14 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tagmetry.detect.photometric import LOOK_COUNT
 from tagmetry.detect.rows import Rows
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, IntArray
+
+Spins = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +40,7 @@ class Tracks(Rows):
     corners_px: Array
     seen_s: Array
     drift_px_s: Array
-    spin_s: "np.ndarray[tuple[int, ...], np.dtype[np.complex128]]"
+    spin_s: Spins
     shake_px_s2: Array
     is_new: BoolArray
     missed: IntArray
