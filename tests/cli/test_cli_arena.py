@@ -211,3 +211,34 @@ def test_a_port_that_is_taken_is_one_line(table: Path, capsys: pytest.CaptureFix
 def test_a_run_with_a_link_ends(table: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert arena(table, "run", "turn", "--link", "127.0.0.1:0", "--poses", "--quiet") == 0
     assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("markers: [{id: 100}, {id: 101}]", "markers: []", "floor.markers: there is none"),
+        ("- {id: 1,", "- {id: 1, marker: {id: 2, height_m: 0.1}}\n  - {id: 1,", "two robots"),
+        ("- {id: 1,", "- {id: 2, marker: {id: 1, height_m: 0.1}}\n  - {id: 1,", "two robots"),
+        (', key: "' + "ab" * 32 + '"', "", "ada has no key"),
+    ],
+    ids=["no floor markers", "two equal ids", "two equal markers", "no key"],
+)
+def test_a_bad_arena_is_one_line(
+    table: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, said: str
+) -> None:
+    assert old in ARENA
+    bad = table / "bad.yaml"
+    bad.write_text(ARENA.replace(old, new) + "world: arena.world.yaml\n", "utf-8")
+    command = ["arena", "run", str(table / "floor.png"), str(bad), "--link", "127.0.0.1:0"]
+    assert run(command) == 2
+    (line,) = capsys.readouterr().err.strip().splitlines()
+    assert said in line
+
+
+@pytest.mark.parametrize("camera", ["97", "rtsp://127.0.0.1:9/none", "http://127.0.0.1:9/none"])
+def test_a_camera_that_is_not_there_is_one_line(
+    table: Path, capsys: pytest.CaptureFixture[str], camera: str
+) -> None:
+    assert run(["arena", "run", camera, str(table / "arena.yaml"), "--limit", "1"]) == 2
+    (line,) = capsys.readouterr().err.strip().splitlines()
+    assert "cannot be opened" in line
