@@ -60,7 +60,7 @@ def error_map_figure(found: ErrorMap, title: str = "radial error") -> "Figure":
     if _is_within(found):
         axes.plot(*found.foot_m, "+", color=RED, markersize=12, markeredgewidth=2)
     axes.set(xlabel="x, m", ylabel="y, m")
-    axes.set_title(f"{title}: worst {error_mm.max():.2g} mm, {len(x)} markers", loc="left")
+    axes.set_title(f"{title}: worst {_short(error_mm.max())} mm, {len(x)} markers", loc="left")
     axes.set_aspect("equal")
     return figure
 
@@ -71,8 +71,13 @@ def _arrows(axes: "Axes", found: ErrorMap) -> None:
     x, y = found.true_m[kept].T
     arrows = axes.quiver(x, y, dx, dy, color="white", angles="xy", width=0.0018)
     rms_m = float(np.sqrt((found.radial_m[kept] ** 2).mean()))
-    told = f"rms {1000 * rms_m:.2g} mm"
+    told = f"rms {_short(1000 * rms_m)} mm"
     axes.quiverkey(arrows, 0.93, 1.03, rms_m, told, labelpos="W", color="k")
+
+
+def _short(value_mm: float) -> str:
+    """Return a number to two digits, or to the whole where it has more."""
+    return f"{value_mm:.2g}" if value_mm < 100 else f"{value_mm:.0f}"
 
 
 def _coloured(axes: "Axes", x: Array, y: Array, error_mm: Array) -> "ScalarMappable":
