@@ -4,71 +4,27 @@ It knows no camera, clock or disk. Whoever runs it gives each picture's view, wh
 when it was taken, shows `outcome`, `next` and `coverage`, and ends when `finished` says why.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from tagmetry.calibrate.guidance.candidates import HoldingLimits
-from tagmetry.calibrate.guidance.gate import GateLimits, is_blurred, is_repeated, is_unsteady
+from tagmetry.calibrate.guidance.gate import is_blurred, is_repeated, is_unsteady
 from tagmetry.calibrate.guidance.knowledge import Knowledge
 from tagmetry.calibrate.guidance.next_view import NextView, next_view
+from tagmetry.calibrate.guidance.plan import LEAST_VIEWS, Plan
 from tagmetry.calibrate.quality.coverage import cells_of
 from tagmetry.calibrate.quality.projection import projection_uncertainty
 from tagmetry.calibrate.result import Calibration
 from tagmetry.calibrate.targets import ViewQuality
 from tagmetry.calibrate.view import BoardView
-from tagmetry.calibrate.views_to_camera import calibrate
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import IntArray
-from tagmetry.markers import Board
 
 _COVERAGE = (8, 6)
 _GRID = (9, 7)
-_FEW = 3  # views; fewer make no calibration
 _LITTLE = 0.01  # share by which a view must lower the uncertainty to be worth its while
 _PATIENCE = 5
-
-Solver = Callable[[Sequence[BoardView]], Calibration]
-
-
-def solve_five(views: Sequence[BoardView]) -> Calibration:
-    """Return the calibration with five coefficients: quick, and enough to guide."""
-    return calibrate(views, "brown5")
-
-
-@dataclass(frozen=True, eq=False)
-class Plan:
-    """What a session is to reach.
-
-    Attributes:
-        board: The board.
-        size_px: (width, height) of the pictures.
-        wanted_px: Largest standard deviation of projections over the image to be reached.
-        least_views: Before that many nothing is finished.
-        most_views: After that many it is.
-        gate: What a view must keep to be taken.
-        holding: How the board can be held.
-        solve: Views to a calibration.
-    """
-
-    board: Board
-    size_px: tuple[int, int]
-    wanted_px: float = 0.5
-    least_views: int = 10
-    most_views: int = 60
-    gate: GateLimits = field(default_factory=GateLimits)
-    holding: HoldingLimits = field(default_factory=HoldingLimits)
-    solve: Solver = solve_five
-
-    def __post_init__(self) -> None:
-        if not self.wanted_px > 0:
-            raise InputError(f"wanted_px must be positive, got {self.wanted_px}")
-        if not _FEW <= self.least_views <= self.most_views:
-            raise InputError(
-                f"expected {_FEW} <= least_views <= most_views, got {self.least_views} and "
-                f"{self.most_views}"
-            )
 
 
 @dataclass(frozen=True)
@@ -189,7 +145,7 @@ def _taken(session: Session, view: BoardView) -> Session:
 
 def _known(plan: Plan, taken: Sequence[BoardView]) -> tuple[Calibration | None, Knowledge]:
     """Return what views tell; without a calibration where they do not determine a camera yet."""
-    if len(taken) >= _FEW:
+    if len(taken) >= LEAST_VIEWS:
         try:
             calibration = plan.solve(taken)
             return calibration, Knowledge.of_calibration(calibration)

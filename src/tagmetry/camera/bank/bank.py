@@ -13,9 +13,10 @@ from functools import cached_property
 
 import numpy as np
 
+from tagmetry.camera.bank.assess import gaps_of, left_out_of
 from tagmetry.camera.bank.line import Line
 from tagmetry.camera.bank.node import Approach, BankNode
-from tagmetry.camera.bank.parameters import alike, worst_displacement_px
+from tagmetry.camera.bank.parameters import alike
 from tagmetry.camera.bank.repeats import merged, repeat_of
 from tagmetry.camera.bank.report import Gap, LeftOut, Repeat
 from tagmetry.camera.model import Camera
@@ -120,20 +121,11 @@ class CameraBank:
         """Return the neighbours in focus that are farther apart than a step."""
         if not step > 0:
             raise InputError(f"the step of the focus must be positive, got {step}")
-        return tuple(
-            Gap(*size_px, zoom, low, high, _focal_sd_percent(line.camera_at((low + high) / 2)))
-            for (size_px, zoom), line in self._lines.items()
-            for low, high in zip(line.settings, line.settings[1:], strict=False)
-            if high - low > step * (1 + 1e-9)
-        )
+        return tuple(gap for line in self._lines.values() for gap in gaps_of(line, step))
 
     def leave_one_out(self) -> tuple[LeftOut, ...]:
         """Compare each calibration, but for the first and last, with what the others predict."""
-        return tuple(
-            _left_out(line, index)
-            for line in self._lines.values()
-            for index in range(1, len(line.settings) - 1)
-        )
+        return tuple(one for line in self._lines.values() for one in left_out_of(line))
 
     def repeats(self) -> tuple[Repeat, ...]:
         """Say how well calibrations at one setting agree, for each setting that has several."""
@@ -214,26 +206,6 @@ class CameraBank:
                 "what lies outside their images is not known"
             )
         return replace(zoomed(line.camera_at(focus), zoom / reference), zoom=zoom)
-
-
-def _left_out(line: Line, index: int) -> LeftOut:
-    camera, predicted = line.cameras[index], line.left_out(index)
-    ratio = np.array(predicted.focal_px) / camera.focal_px
-    shift_px = np.array(predicted.center_px) - camera.center_px
-    return LeftOut(
-        *camera.size_px,
-        camera.zoom,
-        line.settings[index],
-        float(100 * (ratio.mean() - 1)),
-        float(np.linalg.norm(shift_px)),
-        worst_displacement_px(predicted, camera),
-    )
-
-
-def _focal_sd_percent(camera: Camera) -> float | None:
-    if camera.covariance is None:
-        return None
-    return float(100 * np.sqrt(camera.covariance[0, 0]) / camera.focal_px[0])
 
 
 def _check_one_camera(cameras: Sequence[Camera]) -> None:
