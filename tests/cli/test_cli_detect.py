@@ -261,7 +261,8 @@ def test_text_says_what_was_found(scene: Scene, capsys: pytest.CaptureFixture) -
     head, *rows = capsys.readouterr().out.splitlines()
     assert head == f"{scene.picture} [0] 1280x720: 7 markers"
     assert [int(row.split()[1]) for row in rows] == list(scene.ids)
-    assert "z 1005.0 ± " in rows[0]
+    assert ", z 1005.0" in rows[0]
+    assert rows[0].count(" ± ") == 3
 
 
 @pytest.mark.parametrize("options", [[], ["--json"]])
