@@ -1,6 +1,6 @@
 """`tagmetry arena run`: where every robot is, image by image, and what each may know."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from contextlib import ExitStack, closing
 from itertools import islice
 from pathlib import Path
@@ -57,7 +57,6 @@ def run(  # noqa: PLR0913 (each argument is an option)
     """Follow the robots of an arena; print a line of JSON for each image."""
     from tagmetry.cli.arena_computers import bridge_takers, opened_bridge, shared_controllers
     from tagmetry.cli.arena_options import opened, setup_and_world
-    from tagmetry.cli.interrupts import held_back
     from tagmetry.cli.warmup import tell_compiling
     from tagmetry.pipeline.arena import ArenaMeasurement, Latency, run_arena
 
@@ -86,15 +85,21 @@ def run(  # noqa: PLR0913 (each argument is an option)
         takers += bridge_takers(bridge, setup, task)
         takers += _writers(stack, out, recorder, quiet=quiet, live=images.is_live)
         results = closing(run_arena(islice(images, limit), task, takers, latency))
-        following = stack.enter_context(results)
-        told: set[str] = set()
-        while True:
-            with held_back():
-                result = next(following, None)
-            if result is None:
-                break
-            _warn(result, told)
+        _follow(stack.enter_context(results))
     _sum_up(latency)
+
+
+def _follow(results: "Generator[ArenaResult]") -> None:
+    """Take all results, and say once what a person must know."""
+    from tagmetry.cli.interrupts import held_back
+
+    told: set[str] = set()
+    while True:
+        with held_back():
+            result = next(results, None)
+        if result is None:
+            return
+        _warn(result, told)
 
 
 def _with_virtual(setup: "ArenaSetup", world: "ArenaWorld", count: int) -> "ArenaSetup":

@@ -6,6 +6,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import numpy as np
 
@@ -22,6 +23,8 @@ from tagmetry.link.computers import ArenaBridge, state_message
 from tagmetry.link.messages import ArenaState
 
 def resident_kib():
+    if sys.platform != "linux":
+        return 0
     with open("/proc/self/statm", encoding="ascii") as file:
         return 4 * int(file.read().split()[1])
 
@@ -62,7 +65,7 @@ def free_endpoint() -> str:
 @contextmanager
 def program(text: str, *words: object) -> Iterator[subprocess.Popen[str]]:
     """Run a program until the end of the block; it can import this file."""
-    start = f"import sys; sys.path.insert(0, {str(__file__.rpartition('/')[0])!r})\n"
+    start = f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
     command = [sys.executable, "-c", start + text, *map(str, words)]
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True

@@ -12,6 +12,7 @@ def test_topics_are_those_of_the_page() -> None:
     assert lab.of(Kind.STATE, "ada") == "tagmetry/lab/robots/ada/pose"
     assert lab.command("ada") == "tagmetry/lab/robots/ada/command"
     assert robot_of(lab.answer("robot 3")) == "robot 3"
+    assert robot_of(lab.assign) == robot_of(lab.state) == ""
     assert set(lab.told()) == {
         "tagmetry/lab/assign",
         "tagmetry/lab/state",

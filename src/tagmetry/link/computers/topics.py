@@ -70,8 +70,9 @@ class Topics:
 
 
 def robot_of(topic: str) -> str:
-    """Return the robot's name in its topic."""
-    return topic.split("/")[3]
+    """Return the robot's name in its topic; empty where it is about no robot."""
+    chunks = topic.split("/")
+    return chunks[3] if len(chunks) == 5 else ""
 
 
 def checked_name(name: str, of: str) -> str:

@@ -7,7 +7,7 @@ from typing import Self
 
 from tagmetry.closing import Closing
 from tagmetry.errors import InputError
-from tagmetry.link.computers.keys import ARENA_ID, OPEN_KEY
+from tagmetry.link.computers.keys import OPEN_KEY
 from tagmetry.link.computers.net import Net
 from tagmetry.link.computers.onlooker import Onlooker
 from tagmetry.link.computers.sight import ArenaSight, Gathering
@@ -112,8 +112,7 @@ class ArenaView(Closing):
             if heard is not None:
                 self._heard_us = now
                 robot_id, message = heard
-                name = "" if robot_id == ARENA_ID else robot_of(topic)
-                self._see(self._gathering.add(robot_id, name, message))
+                self._see(self._gathering.add(robot_id, robot_of(topic), message))
         self._ask()
 
     def _see(self, sight: ArenaSight | None) -> None:
