@@ -110,6 +110,16 @@ def test_an_old_answer_begins_no_session() -> None:
     assert air.why_not(air.say()) is Refusal.SESSION
 
 
+def test_what_another_computer_is_answered_is_no_attack(air: Air) -> None:
+    another = Onlooker(KEY, count(3001).__next__)
+    hello = another.due(air.here_us)
+    assert hello is not None
+    answer = air.broadcast.answer(hello, air.host_us)
+    assert answer is not None
+    assert air.onlooker.hear(answer, "host", air.here_us) is None
+    assert air.onlooker.refused == {}
+
+
 def test_an_answer_that_took_too_long_bounds_no_clock() -> None:
     air = Air()
     air.greet(delay_us=200_000)

@@ -142,6 +142,8 @@ def killed(runs: subprocess.Popen[str], path: Path, after_s: float) -> float:
     runs.stdin.write(f"{path}\n")
     runs.stdin.flush()
     number = int(runs.stdout.readline())
+    while not path.exists():  # a run that has not begun records nothing
+        time.sleep(0.01)
     time.sleep(after_s)
     os.kill(number, signal.SIGKILL)
     killed_s = time.monotonic()

@@ -58,10 +58,11 @@ class Onlooker:
             self.refused[header] += 1
             return None
         heard = self._open(packet, header, now_us)
-        if isinstance(heard, Refusal):
-            self.refused[heard] += 1
-            return None
-        return header.robot, heard
+        if not isinstance(heard, Refusal):
+            return header.robot, heard
+        if header.kind is not Kind.ASSIGN or heard is not Refusal.REPLAYED:
+            self.refused[heard] += 1  # and not what another computer was answered
+        return None
 
     def host_us(self, now_us: int) -> int:
         """Return the host's time, never earlier than it is; only once something was heard."""
@@ -85,7 +86,7 @@ class Onlooker:
             return Refusal.TAG
         assign = unpack_body(Kind.ASSIGN, body_of(packet))
         if not isinstance(assign, Assign) or assign.robot_nonce != self._nonce:
-            return Refusal.REPLAYED  # or the answer to another computer
+            return Refusal.REPLAYED
         if not 0 <= now_us - assign.robot_us <= LATE_US:
             return Refusal.LATE
         self._take(assign, header, now_us)
