@@ -32,6 +32,8 @@ class Candidates(Named):
         Squares a few pixels off, or inside a wide border, read as well as the right one; the image
         steps across the right one's sides only.
         """
+        if len(self) < 2:
+            return self
         best_first = self.at(np.lexsort((-self.confidence * self.sharp_outline, self.hamming)))
         kept = best_first.at(first_per_place(best_first.corners_px))
         x, y = kept.corners_px.mean(axis=1).T

@@ -24,5 +24,7 @@ class Rows:
         """Return these rows, then others."""
         if not len(others):
             return self
+        if not len(self):
+            return others
         pairs = zip(vars(self).values(), vars(others).values(), strict=True)
         return type(self)(*(np.concatenate(pair) for pair in pairs))

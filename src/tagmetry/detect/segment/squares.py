@@ -63,15 +63,12 @@ def squares(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
 
 def squares_at_a_glance(grey: GreyPixels, min_side_px: float, *, bright: bool) -> Squares:
     """Return most of what `squares` returns, in a fraction of its time."""
-    plan: _Plan = {0.5: _GLANCE, 1.0: (_GLANCE_AT_SMALL,)}
-    if min_side_px >= _FULL_BELOW_PX:
-        del plan[1.0]
-    elif min_side_px < DOUBLE_BELOW_PX:
-        plan = {scale: (*looks, _GLANCE_AT_FAINT) for scale, looks in plan.items()}
-    return _both(grey, min_side_px, plan, bright)
+    return _both(grey, min_side_px, _glance(min_side_px), bright)
 
 
-def squares_in_turn(grey: GreyPixels, min_side_px: float, turn: int, *, bright: bool) -> Squares:
+def squares_in_turn(
+    grey: GreyPixels, min_side_px: float, turn: int, *, bright: bool, small: bool = False
+) -> Squares:
     """Return what one turn of looks finds: at a glance, then those it leaves out, and so on.
 
     Every turn finds dark squares of clear contrast that stand alone.
@@ -81,14 +78,29 @@ def squares_in_turn(grey: GreyPixels, min_side_px: float, turn: int, *, bright: 
         min_side_px: Sides shorter than this are passed over.
         turn: Which turn, 0 to TURNS - 1.
         bright: Bright squares on dark as well.
+        small: Only sides of up to 32 px are wanted: they need no look at half the scale.
     """
-    if turn == 0:
-        return squares_at_a_glance(grey, min_side_px, bright=bright)
+    plan = _glance(min_side_px) if turn == 0 else _turn(min_side_px, turn)
+    if small and 1.0 in plan:
+        del plan[0.5]
+    return _both(grey, min_side_px, plan, bright)
+
+
+def _glance(min_side_px: float) -> _Plan:
+    plan: _Plan = {0.5: _GLANCE, 1.0: (_GLANCE_AT_SMALL,)}
+    if min_side_px >= _FULL_BELOW_PX:
+        del plan[1.0]
+    elif min_side_px < DOUBLE_BELOW_PX:
+        plan = {scale: (*looks, _GLANCE_AT_FAINT) for scale, looks in plan.items()}
+    return plan
+
+
+def _turn(min_side_px: float, turn: int) -> _Plan:
     looks = ((_LEVELS[0],), (_LEVELS[1], _THIN), (_LEVELS[2],))[turn - 1]
     plan: _Plan = dict.fromkeys(_plan(min_side_px), looks)
     if turn == 2 and 2.0 in plan:
         plan[2.0] = (_LEVELS[1],)
-    return _both(grey, min_side_px, plan, bright)
+    return plan
 
 
 def _plan(min_side_px: float) -> _Plan:

@@ -24,12 +24,14 @@ class Part:
         least_px: Shortest side of markers.
         scale: At which it is looked at, 1 or less.
         looks: Which turn of looks is taken; all where None.
+        small: Only markers for which full scale is needed are looked for.
     """
 
     box: IntArray
     least_px: float
     scale: float = 1.0
     looks: int | None = None
+    small: bool = False
 
 
 def whole(size_px: tuple[int, int], least_px: float) -> Part:
@@ -39,7 +41,8 @@ def whole(size_px: tuple[int, int], least_px: float) -> Part:
 
 def turn_part(turn: Turn, width_px: int, looks: int) -> Part:
     """Return what is searched for new markers in one image."""
-    return Part(np.array([0, turn.top, width_px, turn.bottom]), turn.least_px, turn.scale, looks)
+    box = np.array([0, turn.top, width_px, turn.bottom])
+    return Part(box, turn.least_px, turn.scale, looks, turn.small)
 
 
 def due(missed: IntArray) -> BoolArray:

@@ -105,6 +105,8 @@ def _found_in(image: Greyed, part: Part, reader: Reader, known_px: Array) -> Can
     found = _squares(grey, part, bright=reader.bright)
     corners_px = (found.corners_px + 0.5) / part.scale - 0.5 + [left, top]
     free = ~in_places(corners_px, known_px)
+    if not free.any():
+        return Candidates.none()
     return reader.read(image.grey, Squares(corners_px[free], found.is_bright[free])).candidates
 
 
@@ -113,7 +115,7 @@ def _squares(grey: GreyPixels, part: Part, *, bright: bool) -> Squares:
     least_px = part.scale * part.least_px
     if part.looks is None:
         return squares(grey, least_px, bright=bright)
-    return squares_in_turn(grey, least_px, part.looks, bright=bright)
+    return squares_in_turn(grey, least_px, part.looks, bright=bright, small=part.small)
 
 
 def _scaled(part: GreyPixels, scale: float) -> GreyPixels:

@@ -5,7 +5,7 @@ wider strips, the largest in the whole image at an eighth. Strips overlap by mor
 marker that they are for, whichever way it is turned.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -27,12 +27,14 @@ class Turn:
         bottom: Past the last row.
         least_px: Shortest side of markers.
         scale: At which the image is looked at.
+        small: Larger markers than those for which full scale is needed have a turn of their own.
     """
 
     top: int
     bottom: int
     least_px: float
     scale: float
+    small: bool = False
 
 
 @lru_cache
@@ -46,7 +48,8 @@ def turns(height_px: int, least_px: float, strips: int) -> tuple[Turn, ...]:
     """
     all_turns: list[Turn] = []
     if least_px < _SMALL_BELOW_PX:
-        all_turns += _strips(height_px, least_px, _SMALL_BELOW_PX, strips)
+        small = _strips(height_px, least_px, _SMALL_BELOW_PX, strips)
+        all_turns += [replace(turn, small=True) for turn in small]
     middle_px = max(least_px, _SMALL_BELOW_PX)
     if middle_px < _MIDDLE_BELOW_PX:
         all_turns += _strips(height_px, middle_px, _MIDDLE_BELOW_PX, -(-strips // _FEWER))
