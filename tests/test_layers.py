@@ -18,6 +18,7 @@ PACKAGE = ROOT / "src" / "tagmetry"
 LAYERS = (
     "errors", "closing", "geometry", "markers", "camera", "detect", "calibrate", "pose", "localize",
     "lens", "arena", "files", "sources", "twin", "record", "link", "pipeline", "lab", "live", "cli",
+    "__main__",
 )  # fmt: skip
 PURE = LAYERS[: LAYERS.index("arena") + 1]
 IMPURE_MODULES = {

@@ -179,7 +179,7 @@ def test_a_folder_without_pictures(place: Path, capsys: pytest.CaptureFixture) -
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        (["detect"], "Missing argument 'SOURCE...'"),
+        (["detect"], "Missing argument 'SOURCE'"),
         (["camera", "show"], "Missing argument 'CAMERA'"),
         (["frobnicate"], "No such command 'frobnicate'"),
         (["demo", "--seed=-1"], "'--seed'"),

@@ -62,3 +62,13 @@ def test_the_version_is_told(capsys: pytest.CaptureFixture) -> None:
 
     assert run(["--version"]) == 0
     assert capsys.readouterr().out == f"tagmetry {__version__}\n"
+
+
+def test_a_switch_takes_no_value_and_an_argument_stands_in_capitals(
+    capsys: pytest.CaptureFixture,
+) -> None:
+    assert run(["compare", "--help"]) == 0
+    out = capsys.readouterr().out
+    assert "{ESTIMATED} {TRUE}" in out
+    assert "<bool>" not in out
+    assert "--json" in out

@@ -1,6 +1,8 @@
 """`tagmetry info`: versions, parts and families."""
 
 import json
+import tomllib
+from pathlib import Path
 
 import pytest
 
@@ -8,12 +10,15 @@ import tagmetry
 from tagmetry.cli.main import run
 from tagmetry.markers import family, family_names
 
+ROOT = Path(__file__).parents[2]
+
 
 def test_json_holds_every_family(capsys: pytest.CaptureFixture) -> None:
     assert run(["info", "--json"]) == 0
     table = json.loads(capsys.readouterr().out)
     assert table["versions"]["tagmetry"] == tagmetry.__version__
-    assert set(table["parts"]) == {"print", "video", "parquet"}
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    assert set(table["parts"]) == set(declared["optional-dependencies"]) - {"all"}
     assert list(table["families"]) == list(family_names())
     one = family("tag36h11")
     assert table["families"]["tag36h11"] == {

@@ -18,7 +18,7 @@ def calibrate(  # noqa: PLR0913 (each argument is an option)
     sources: Annotated[
         list[str],
         typer.Argument(
-            metavar="SOURCE...",
+            metavar="SOURCE",
             help="Pictures of the board: folder, glob, video, camera number, rtsp://, http://, "
             "or a scene of the twin: twin:board-sweep, twin:desk.yaml.",
         ),

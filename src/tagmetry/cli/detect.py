@@ -23,7 +23,7 @@ def detect(  # noqa: PLR0913 (each argument is an option)
     sources: Annotated[
         list[str],
         typer.Argument(
-            metavar="SOURCE...",
+            metavar="SOURCE",
             help="Picture, folder, glob, video, camera number, /dev/video0, rtsp://, http://, or a "
             "simulated camera or scene: twin:webcam, twin:room, twin:desk.yaml.",
         ),

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from tagmetry.geometry.arrays import AnyPixels
     from tagmetry.markers import MarkerFamily
 
-Picture = Annotated[list[Path], typer.Argument(help="Pictures to look at.", metavar="PICTURE...")]
+Picture = Annotated[list[Path], typer.Argument(help="Pictures to look at.", metavar="PICTURE")]
 Family = Annotated[
     list[str] | None,
     typer.Option(help="Family asked for; may be repeated. All families when left out."),

@@ -6,7 +6,18 @@ from tagmetry import __version__
 from tagmetry.cli.answer import answer
 from tagmetry.cli.options import Json
 
-_PARTS = {"print": "reportlab", "video": "av", "parquet": "pyarrow"}
+_PARTS = {
+    "print": "reportlab",
+    "video": "av",
+    "parquet": "pyarrow",
+    "report": "matplotlib",
+    "arena": "mcap",
+    "robots": "mujoco-core",
+    "live": "fastapi",
+    "cluster": "distributed",
+    "zenoh": "eclipse-zenoh",
+    "bench": "pyapriltags",
+}  # the package that tells whether a part is there
 _PACKAGES = ("numpy", "scipy", "opencv-python-headless", "pydantic")
 
 

@@ -31,7 +31,7 @@ def list_() -> None:
 def run(
     *,
     names: Annotated[
-        list[str] | None, typer.Argument(help="Experiments that `lab list` names.")
+        list[str] | None, typer.Argument(metavar="NAME", help="Experiments that `lab list` names.")
     ] = None,
     all_: Annotated[bool, typer.Option("--all", help="All of them.")] = False,
     quick: Annotated[bool, typer.Option("--quick", help="Few cases, for a first look.")] = False,

@@ -25,6 +25,7 @@ from tagmetry.cli.lab import app as lab_app
 from tagmetry.cli.lens import app as lens_app
 from tagmetry.cli.live import live
 from tagmetry.cli.locate import locate
+from tagmetry.cli.plain_help import with_plain_names
 from tagmetry.cli.plan import plan
 from tagmetry.cli.print import app as print_app
 from tagmetry.cli.twin import app as twin_app
@@ -102,7 +103,7 @@ def run(arguments: list[str]) -> int:
 def _invoke(arguments: list[str]) -> None:
     """Run one command; Typer's own runner would turn a closed pipe and Ctrl-C into exits."""
     ensure_cache_folder()
-    command = typer.main.get_command(app)
+    command = with_plain_names(typer.main.get_command(app))
     with command.make_context("tagmetry", list(arguments)) as context:
         command.invoke(context)
 
