@@ -6,7 +6,7 @@ import numpy as np
 
 from tagmetry import markers
 from tagmetry.camera import Camera
-from tagmetry.camera.lens import BrownLens
+from tagmetry.camera.brown_lens import BrownLens
 from tagmetry.detect import Detection, Detector
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.transforms import Rotation

@@ -1,6 +1,7 @@
 """The camera model, its images, and what a source of images must be."""
 
 from tagmetry.camera.bank import Approach, BankNode, CameraBank, Gap, LeftOut, Repeat
+from tagmetry.camera.brown_lens import BrownLens
 from tagmetry.camera.controls import (
     Control,
     ControlledSource,
@@ -9,8 +10,9 @@ from tagmetry.camera.controls import (
     Controls,
     ControlStuckError,
 )
+from tagmetry.camera.fisheye_lens import FisheyeLens
 from tagmetry.camera.image import Image
-from tagmetry.camera.lens import BrownLens, FisheyeLens, Lens
+from tagmetry.camera.lens import Lens
 from tagmetry.camera.model import Camera
 from tagmetry.camera.monotonic import DistortionReach, distortion_reach
 from tagmetry.camera.resize import cropped, rotated, scaled, zoomed

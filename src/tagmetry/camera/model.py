@@ -10,7 +10,8 @@ from typing import Self
 
 import numpy as np
 
-from tagmetry.camera.lens import BrownLens, Lens
+from tagmetry.camera.brown_lens import BrownLens
+from tagmetry.camera.lens import Lens
 from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import Array
 

@@ -11,7 +11,8 @@ import numpy as np
 from tagmetry.arena import Arena, Mount, OverheadView, Robot, Roster
 from tagmetry.calibrate.targets import find_board
 from tagmetry.camera import Camera
-from tagmetry.camera.lens import BrownLens, FisheyeLens
+from tagmetry.camera.brown_lens import BrownLens
+from tagmetry.camera.fisheye_lens import FisheyeLens
 from tagmetry.detect import Detector, Tracker
 from tagmetry.geometry import RigidTransform
 from tagmetry.geometry.arrays import GreyPixels

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tagmetry.camera.lens import BrownLens
+from tagmetry.camera.brown_lens import BrownLens
 from tagmetry.camera.model import Camera
 from tagmetry.geometry.arrays import Array
 

@@ -10,7 +10,9 @@ from dataclasses import replace
 import numpy as np
 
 from tagmetry.camera import Camera, scaled, zoomed
-from tagmetry.camera.lens import BrownLens, FisheyeLens, Lens
+from tagmetry.camera.brown_lens import BrownLens
+from tagmetry.camera.fisheye_lens import FisheyeLens
+from tagmetry.camera.lens import Lens
 from tagmetry.errors import InputError
 from tagmetry.twin.camera.device import Device
 from tagmetry.twin.camera.setting import Setting
