@@ -22,7 +22,8 @@ from tagmetry.geometry.transforms import RigidTransform, Rotation
 from tagmetry.markers import marker_corners_m
 from tagmetry.pose import estimate_pose, estimate_poses
 from tagmetry.pose.ippe import ippe
-from tagmetry.pose.refine import Poses, Sightings, refine
+from tagmetry.pose.refine import refine
+from tagmetry.pose.stacks import Poses, Sightings
 from tagmetry.pose.whitening import whitening
 
 SIZE_M = 0.1

@@ -15,7 +15,8 @@ from tagmetry.camera import Camera
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 from tagmetry.markers.bodies import MarkerKey
-from tagmetry.pose.refine import Fit, Poses, Sightings, refine
+from tagmetry.pose.refine import Fit, refine
+from tagmetry.pose.stacks import Poses, Sightings
 from tagmetry.pose.whitening import whitening
 
 GATE = 16.3  # chi2 with 2 degrees of freedom: one good corner in 3500 is turned away

@@ -21,8 +21,9 @@ from tagmetry.markers import MarkerBody
 from tagmetry.markers.bodies import MarkerKey
 from tagmetry.pose.agreement import GATE, Agreement, BodyCorners, agreements, is_chance
 from tagmetry.pose.marker import estimate_poses, hypotheses_of, ranked, rms_px
-from tagmetry.pose.refine import Poses, joined
+from tagmetry.pose.refine import joined
 from tagmetry.pose.result import PoseHypothesis
+from tagmetry.pose.stacks import Poses
 from tagmetry.pose.whitening import whitening
 
 _DISTINCT_RAD = np.deg2rad(3.0)

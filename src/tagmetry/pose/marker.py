@@ -18,8 +18,9 @@ from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 from tagmetry.markers import marker_corners_m
 from tagmetry.pose.ippe import ippe
-from tagmetry.pose.refine import Fit, Poses, Sightings, refine, residuals_px
+from tagmetry.pose.refine import Fit, refine, residuals_px
 from tagmetry.pose.result import MarkerPose, PoseHypothesis
+from tagmetry.pose.stacks import Poses, Sightings
 from tagmetry.pose.whitening import whitening
 
 _FARTHEST_PX = 1e9  # no image is so large, and its square is still a number
