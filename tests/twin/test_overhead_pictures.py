@@ -14,7 +14,8 @@ from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import MountedMarker, family
 from tagmetry.twin.optics.sensor import Sensor
 from tagmetry.twin.rendering import photograph
-from tagmetry.twin.robots.overhead import OverheadPictures, T_robot_marker, body_thing
+from tagmetry.twin.robots.overhead import OverheadPictures
+from tagmetry.twin.robots.roof import T_robot_marker, body_thing
 from tagmetry.twin.scenes import Lamp, Light, Scene, Still, marker_thing, surface
 from tagmetry.twin.scenes.path import looking
 from tagmetry.twin.scenes.ready.photographer import machine_camera

@@ -12,7 +12,8 @@ from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.markers import family
 from tagmetry.markers.bodies import marker_corners_m
 from tagmetry.twin.rendering import Shot
-from tagmetry.twin.robots.overhead import OverheadPictures, T_robot_marker
+from tagmetry.twin.robots.overhead import OverheadPictures
+from tagmetry.twin.robots.roof import T_robot_marker
 from tagmetry.twin.scenes import Scene
 
 

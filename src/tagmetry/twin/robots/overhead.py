@@ -10,7 +10,7 @@ together with the robot's edge.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -18,40 +18,19 @@ import numpy as np
 from tagmetry.arena.robot import Robot
 from tagmetry.geometry import Array, RigidTransform
 from tagmetry.geometry.arrays import AnyPixels, FloatImage
-from tagmetry.geometry.transforms import Rotation
-from tagmetry.markers import MountedMarker, family
 from tagmetry.twin.optics.quick_sensor import quick_development
 from tagmetry.twin.optics.vignetting import gain_map
 from tagmetry.twin.rendering import Shot, exposed
 from tagmetry.twin.rendering.box import Box
-from tagmetry.twin.scenes import Scene, Sheet, Thing, marker_sheet
-from tagmetry.twin.scenes.furniture import box
+from tagmetry.twin.robots.roof import BODY_REFLECTANCE, ROOF_CORNERS, Roof, roof_of
+from tagmetry.twin.scenes import Scene
 
 _FINE = 6
 _REACH_PX = 5  # around a robot: its light is spread by the lens
-_BODY = 0.12  # reflectance of the robots' bodies
 _UP = np.array([0.0, 0.0, 1.0])
 _SUBPIXEL_BITS = 8  # of the outline's points
-_ROOF_CORNERS = 4
 
 _Painted = tuple[FloatImage, FloatImage]  # light and cover
-
-
-@dataclass(frozen=True, eq=False)
-class _Roof:
-    """What is to be seen of a robot.
-
-    Attributes:
-        reflectance: Of the roof's cells, a margin of paper around, shape (n, n).
-        to_texel: From metres on the roof's sheet to cells, shape (3, 3).
-        corners_m: Of the roof's paper, in the robot's frame, shape (4, 3).
-        body_m: Corners of the body, in the robot's frame, shape (m, 3).
-    """
-
-    reflectance: FloatImage
-    to_texel: Array
-    corners_m: Array
-    body_m: Array
 
 
 class OverheadPictures:
@@ -67,7 +46,7 @@ class OverheadPictures:
         """
         self._shot = replace(shot, optics=replace(shot.optics, veil=0.0))
         self._light = floor.light
-        self._roofs = [_roof(robot) for robot in robots]
+        self._roofs = [roof_of(robot) for robot in robots]
         self._p_robot = np.array([np.vstack([one.corners_m, one.body_m]) for one in self._roofs])
         self._empty = exposed(floor, self._shot) * np.float32(shot.brightness)
         self._gain = gain_map(shot.camera, shot.optics.vignetting)
@@ -107,7 +86,7 @@ class OverheadPictures:
 
     def _lit(self, Ts_world_robot: RigidTransform) -> list[float]:
         """Return the irradiance of the middles of the roofs."""
-        middles_m = self._p_robot[:, :_ROOF_CORNERS].mean(axis=1, keepdims=True)
+        middles_m = self._p_robot[:, :ROOF_CORNERS].mean(axis=1, keepdims=True)
         lit = self._light.on(_placed(Ts_world_robot, middles_m)[:, 0], _UP)
         return list(map(float, lit))
 
@@ -125,16 +104,16 @@ def _placed(Ts_world_robot: RigidTransform, p_robot: Array) -> Array:
     return np.asarray(turned + np.asarray(Ts_world_robot.translation)[:, None])
 
 
-def _painted(roof: _Roof, seen_px: Array, window: Box) -> _Painted:
+def _painted(roof: Roof, seen_px: Array, window: Box) -> _Painted:
     """Return the light under an irradiance of 1, and the cover, of a window's pixels."""
-    corners_px, body_px = seen_px[:_ROOF_CORNERS], seen_px[_ROOF_CORNERS:]
+    corners_px, body_px = seen_px[:ROOF_CORNERS], seen_px[ROOF_CORNERS:]
     width, height = window.right - window.left, window.bottom - window.top
     size = (_FINE * width, _FINE * height)
     cover = np.zeros((size[1], size[0]), np.float32)
     outline = cv2.convexHull(_fine(body_px, window).astype(np.float32))[:, 0]
     points = np.rint(outline * 2**_SUBPIXEL_BITS).astype(np.int32)
     cv2.fillConvexPoly(cover, points, 1.0, cv2.LINE_8, _SUBPIXEL_BITS)
-    sheet_m = _unit_square() * _side_m(roof)
+    sheet_m = roof.sheet_m
     to_fine = cv2.getPerspectiveTransform(
         sheet_m.astype(np.float32), _fine(corners_px, window).astype(np.float32)
     )
@@ -143,7 +122,7 @@ def _painted(roof: _Roof, seen_px: Array, window: Box) -> _Painted:
         roof.reflectance, H, size, flags=cv2.INTER_NEAREST, borderValue=-1.0
     )
     on_roof = paper >= 0
-    radiance = np.where(on_roof, paper, _BODY * cover).astype(np.float32)
+    radiance = np.where(on_roof, paper, BODY_REFLECTANCE * cover).astype(np.float32)
     cover[on_roof] = 1.0
     return _means(radiance, width, height), _means(cover, width, height)
 
@@ -161,55 +140,3 @@ def _spread(image: FloatImage, sigma_px: float) -> FloatImage:
 def _fine(pixels: Array, window: Box) -> Array:
     """Return places on the fine grid, whose integers are its points."""
     return np.asarray((pixels - [window.left, window.top] + 0.5) * _FINE - 0.5)
-
-
-def _unit_square() -> Array:
-    return np.array([[-0.5, 0.5], [0.5, 0.5], [0.5, -0.5], [-0.5, -0.5]])
-
-
-def _side_m(roof: _Roof) -> float:
-    return float(np.linalg.norm(roof.corners_m[1] - roof.corners_m[0]))
-
-
-def _roof(robot: Robot) -> _Roof:
-    sheet = _marker_paper(robot)
-    cells = _cells(sheet, 1.0 - family(robot.family).picture(robot.marker_id).astype(float))
-    side = len(cells)
-    scale = side / sheet.width_m
-    middle = side / 2 - 0.5
-    to_texel = np.array([[scale, 0.0, middle], [0.0, -scale, middle], [0.0, 0.0, 1.0]])
-    flat = np.column_stack([_unit_square() * sheet.width_m, np.zeros(4)])
-    body = body_thing(robot).sheets
-    body_m = np.concatenate([one.T_thing_sheet.apply(one.corners_m) for one in body])
-    corners_m = np.asarray(sheet.T_thing_sheet.apply(flat))
-    return _Roof(cells, to_texel, corners_m, np.unique(body_m.round(9), axis=0))
-
-
-def body_thing(robot: Robot) -> Thing:
-    """Return a robot's body: a box as wide as fits into its circle, up to just below its marker."""
-    side_m, height_m = robot.diameter_m / np.sqrt(2), robot.mount.height_m - 1e-3
-    body = box(robot.name, (side_m, side_m, height_m), brightness=_BODY)
-    up = RigidTransform.from_translation([0.0, 0.0, height_m / 2])
-    sheets = tuple(replace(one, T_thing_sheet=up * one.T_thing_sheet) for one in body.sheets)
-    return replace(body, sheets=sheets)
-
-
-def T_robot_marker(robot: Robot) -> RigidTransform:  # noqa: N802 - a frame's name
-    """Return where a robot's marker lies on it; its top is to the front at a turn of 0."""
-    mount = robot.mount
-    return RigidTransform.from_components(
-        [mount.forward_m, mount.left_m, mount.height_m],
-        Rotation.from_euler("z", mount.turn_rad - np.pi / 2),
-    )
-
-
-def _marker_paper(robot: Robot) -> Sheet:
-    """Return the paper on a robot's roof, with a quiet zone of one cell."""
-    return marker_sheet(
-        MountedMarker(robot.family, robot.marker_id, robot.marker_size_m, T_robot_marker(robot))
-    )
-
-
-def _cells(sheet: Sheet, ink: Array) -> FloatImage:
-    """Return the reflectance of a marker's paper, cell by cell."""
-    return np.asarray(sheet.paper + (sheet.ink - sheet.paper) * np.pad(ink, 1), np.float32)
