@@ -19,13 +19,14 @@ _LEAST_ANGLE_SINE = 0.2
 
 
 @njit(cache=True, nogil=True)
-def far_points(points: Array, slack_px: float, indices: IntArray) -> bool:
+def far_points(points: Array, slack_px: float, indices: IntArray, strays: Array) -> bool:
     """Write which points of an outline are its corners; say whether it has four sides.
 
     Args:
         points: Closed, clockwise as seen, shape (n, 2).
         slack_px: How much farther than usual the outline may stray from its sides.
         indices: For the result, in order, shape (5,); the last is the first again, n later.
+        strays: To work with, shape (2, 4): how far the outline strays from each line, and where.
     """
     n = len(points)
     across = points[n // 2]
@@ -35,14 +36,14 @@ def far_points(points: Array, slack_px: float, indices: IntArray) -> bool:
     indices[1] = _farthest(points, points[begin, 0], points[begin, 1])
     if indices[1] < begin:
         indices[1] += n
-    stray, at = np.empty(4), np.empty(4, np.int64)
+    stray, at = strays
     for k in range(2):
         stray[k], at[k] = _strays(points, indices[k], indices[k + 1])
     for known in range(2, 4):
         worst = stray[:known].argmax()
         for k in range(known, worst, -1):
             indices[k + 1], stray[k], at[k] = indices[k], stray[k - 1], at[k - 1]
-        indices[worst + 1] = at[worst]
+        indices[worst + 1] = int(at[worst])
         for k in range(worst, worst + 2):
             stray[k], at[k] = _strays(points, indices[k], indices[k + 1])
     return bool(stray.max() <= slack_px + max(_STRAIGHT_PX, _STRAIGHT * _way(points, indices)))

@@ -16,6 +16,7 @@ Places = NDArray[np.uint64]  # of bits among all of them
 RIM_PX = 1
 _LEAST_SHIFT = 6  # rows are whole words of 64 bits
 _ONE, _LAST = np.uint64(1), np.uint64(63)
+_FOUR_TIMES = np.uint32(0x01010101)  # a byte times this: four of it
 _GATHER = np.uint64(0x0102040810204080)  # times eight bytes of 0 or 1: these as the highest byte
 _HIGHEST = np.uint64(56)
 
@@ -37,10 +38,11 @@ def dark_bits(grey: GreyPixels, levels: GreyPixels) -> Bits:
     row = np.zeros(8 * bits.shape[1], np.uint8)
     eights = row.view(np.uint64)
     level = np.empty(TILE_PX * levels.shape[1], np.uint8)
+    fours = level.view(np.uint32)
     for y in range(height):
         if y % TILE_PX == 0:
-            for x in range(level.size):
-                level[x] = levels[y // TILE_PX, x // TILE_PX]
+            for i in range(fours.size):
+                fours[i] = levels[y // TILE_PX, i] * _FOUR_TIMES
         here, into, packed = grey[y], row[RIM_PX:], bits[y + RIM_PX]
         for x in range(width):
             into[x] = here[x] < level[x]

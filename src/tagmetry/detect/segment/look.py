@@ -1,26 +1,52 @@
 """One look at an image: its dark squares by one idea of what is dark."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from tagmetry.detect.segment.corners import far_points, four_corners
 from tagmetry.detect.segment.dark import Bits, Places, dark_bits, row_shift, thinned
-from tagmetry.detect.segment.outline import Cracks, at_level, box, midway, steps, walk
+from tagmetry.detect.segment.outline import (
+    Cracks,
+    at_level,
+    bit,
+    box,
+    mark_above,
+    midway,
+    steps,
+    walk,
+)
 from tagmetry.detect.segment.starts import starts
 from tagmetry.detect.segment.tiles import Tiles
-from tagmetry.geometry.arrays import Array, GreyPixels
+from tagmetry.geometry.arrays import Array, GreyPixels, IntArray
 
 _DETOUR = 1.25  # an outline's length by the way around its box, which is 1 for convex shapes
 _DETOUR_PX = 4
 _STEPS_PX = 0.4  # how far steps from pixel to pixel stray from a side; thinned ones may not
 _POINTS = 48  # and up to twice as many, of an outline
+_THINNED_PX = 1.0
 _NO_LEVELS = np.empty((0, 0), np.uint8)
 _FLATTEST = 0.12  # height of a box by its width, or the reverse
 _PIXELS_PER_START = 16  # an image of more starts is taken for noise, and its gate raised
 _COARSER = 1.6
 _MOST_GATE = 255.0
+_ONE = np.uint64(1)
+
+
+class _Desk(NamedTuple):
+    """What the search for corners writes on, made once for all outlines.
+
+    Attributes:
+        points: Of an outline, shape (n, 2).
+        indices: Which of them are corners, shape (5,).
+        strays: How far the outline strays from the lines between them, and where, shape (2, 4).
+    """
+
+    points: Array
+    indices: IntArray
+    strays: Array
 
 
 @dataclass(frozen=True)
@@ -30,7 +56,8 @@ class Look:
     Attributes:
         share: What lies below this share of the way from the darkest to the brightest around. A
             low one parts a marker from dim clutter, a high one closes faint borders.
-        thinned: Dark areas are thinned by a pixel, which parts squares that touch at corners.
+        thinned: Dark areas are looked at once more, thinned by a pixel, which parts squares that
+            touch at corners.
         step_share: By how much of the range around the image steps where an outline begins.
         most_px: Sides much longer than this are passed over.
     """
@@ -50,22 +77,37 @@ def dark_squares(grey: GreyPixels, tiles: Tiles, look: Look, least_px: float) ->
         look: What is dark.
         least_px: Sides shorter than this are passed over.
     """
-    gate = tiles.gate
+    gate, ranges = tiles.gate, tiles.near.ranges
+    farthest_px = min(2 * look.most_px, grey.shape[0] + grey.shape[1])
+    longest_px = _detour_px(farthest_px)
+    most = max(1000, grey.size // _PIXELS_PER_START)
     while gate <= _MOST_GATE:
         levels = tiles.levels(look.share, gate)
         bits = dark_bits(grey, levels)
-        if look.thinned:
-            bits = thinned(bits)
-        most = max(1000, grey.size // _PIXELS_PER_START)
-        begins = starts(bits, grey, tiles.near.ranges, look.step_share, most)
+        begins = starts(bits, grey, ranges, look.step_share, most)
         if len(begins) < most:
-            crossings = _NO_LEVELS if look.thinned else levels
-            outset_px = 1.0 if look.thinned else 0.0
-            farthest_px = min(2 * look.most_px, grey.shape[0] + grey.shape[1])
-            longest_px = _detour_px(farthest_px)
-            return _outlined(bits, grey, crossings, begins, outset_px, least_px, longest_px)
+            small = np.zeros_like(bits)
+            found = _outlined(bits, grey, levels, begins, small, least_px, longest_px)
+            if not look.thinned:
+                return found
+            thin = thinned(bits)
+            begins = starts(thin, grey, ranges, look.step_share, most)
+            begins = _elsewhere(begins, small)
+            more = _outlined(thin, grey, _NO_LEVELS, begins, small, least_px, longest_px)
+            return np.concatenate([found, more])
         gate *= _COARSER
     return np.empty((0, 4, 2))
+
+
+@njit(cache=True, nogil=True)
+def _elsewhere(begins: Places, small: Bits) -> Places:
+    """Return which starts of thinned outlines do not lie beneath the outline of a small area."""
+    marks, up = small.reshape(-1), np.uint64(8 * small.shape[1])
+    keep = np.empty(len(begins), np.bool_)
+    for i in range(len(begins)):
+        above = begins[i] - up
+        keep[i] = not (bit(marks, above - _ONE) | bit(marks, above) | bit(marks, above + _ONE))
+    return begins[keep]
 
 
 @njit(cache=True, nogil=True)
@@ -74,7 +116,7 @@ def _outlined(
     grey: GreyPixels,
     levels: GreyPixels,
     begins: Places,
-    outset_px: float,
+    small: Bits,
     least_px: float,
     longest_px: int,
 ) -> Array:
@@ -82,13 +124,17 @@ def _outlined(
     corners = np.empty((len(begins), 4, 2))
     count = 0
     walked = np.empty(longest_px, np.uint64)
+    desk = _Desk(np.empty((2 * _POINTS, 2)), np.empty(5, np.int64), np.empty((2, 4)))
     flat, shift, row_px = bits.reshape(-1), row_shift(bits), 8 * bits.shape[1]
+    marks = small.reshape(-1)
     onward, backward = steps(row_px, 1), steps(row_px, -1)
     for start in begins:
         begin, end = walk(flat, np.uint64(row_px), onward, backward, start, walked)
-        if end - begin >= 4 * least_px and _may_be_a_square(walked[begin:end], shift, least_px):
-            cracks = walked[begin:end]
-            square = _four_sided(cracks, shift, grey, levels, outset_px, corners[count])
+        cracks = walked[begin:end]
+        if len(cracks) < 4 * least_px:
+            mark_above(cracks, marks)
+        elif _may_be_a_square(cracks, shift, least_px):
+            square = _four_sided(cracks, shift, grey, levels, desk, corners[count])
             count += square and _least_side(corners[count]) >= least_px
     return corners[:count]
 
@@ -108,19 +154,18 @@ def _four_sided(
     shift: int,
     grey: GreyPixels,
     levels: GreyPixels,
-    outset_px: float,
+    desk: _Desk,
     corners: Array,
 ) -> bool:
     """Write an outline's corners, told by some dozens of points; say whether it has four sides."""
-    indices = np.empty(5, np.int64)
     every = max(1, len(cracks) // _POINTS)
-    points = np.empty((len(cracks) // every, 2))
+    points = desk.points[: len(cracks) // every]
     midway(cracks, shift, every, points)
-    if not far_points(points, _STEPS_PX if levels.size else 0.0, indices):
+    if not far_points(points, _STEPS_PX if levels.size else 0.0, desk.indices, desk.strays):
         return False
     if levels.size:
         at_level(cracks, shift, every, grey, levels, points)
-    return four_corners(points, indices, outset_px, corners)
+    return four_corners(points, desk.indices, 0.0 if levels.size else _THINNED_PX, corners)
 
 
 @njit(cache=True, nogil=True)

@@ -24,9 +24,9 @@ DOUBLE_BELOW_PX = 10.0
 _LEAST_IMAGE_PX = 8
 _SHARED_FROM_PIXELS = 500_000  # smaller images take less time than waking a thread is worth
 _SLACK = 0.9  # blur rounds corners off, so that squares look smaller at first
-_LEVELS = Look(0.35), Look(0.5), Look(0.7)
-_THIN = Look(0.5, thinned=True)
-_GLANCE = Look(0.5, step_share=0.55), Look(0.5, thinned=True, step_share=0.55)
+_LEVELS = Look(0.35), Look(0.5, thinned=True), Look(0.7)
+_LEVELS_AT_DOUBLE = Look(0.35), Look(0.5), Look(0.7)
+_GLANCE = Look(0.5, thinned=True, step_share=0.55)
 _GLANCE_AT_SMALL = Look(0.5, step_share=0.55, most_px=48.0)
 _GLANCE_AT_FAINT = Look(0.7, step_share=0.55, most_px=48.0)
 _Plan = dict[float, tuple[Look, ...]]  # the looks at each scale
@@ -87,7 +87,7 @@ def squares_in_turn(
 
 
 def _glance(min_side_px: float) -> _Plan:
-    plan: _Plan = {0.5: _GLANCE, 1.0: (_GLANCE_AT_SMALL,)}
+    plan: _Plan = {0.5: (_GLANCE,), 1.0: (_GLANCE_AT_SMALL,)}
     if min_side_px >= _FULL_BELOW_PX:
         del plan[1.0]
     elif min_side_px < DOUBLE_BELOW_PX:
@@ -96,16 +96,12 @@ def _glance(min_side_px: float) -> _Plan:
 
 
 def _turn(min_side_px: float, turn: int) -> _Plan:
-    looks = ((_LEVELS[0],), (_LEVELS[1], _THIN), (_LEVELS[2],))[turn - 1]
-    plan: _Plan = dict.fromkeys(_plan(min_side_px), looks)
-    if turn == 2 and 2.0 in plan:
-        plan[2.0] = (_LEVELS[1],)
-    return plan
+    return {scale: (looks[turn - 1],) for scale, looks in _plan(min_side_px).items()}
 
 
 def _plan(min_side_px: float) -> _Plan:
     """Return all looks that may find something."""
-    plan: _Plan = {0.5: (*_LEVELS, _THIN), 1.0: (*_LEVELS, _THIN), 2.0: _LEVELS}
+    plan: _Plan = {0.5: _LEVELS, 1.0: _LEVELS, 2.0: _LEVELS_AT_DOUBLE}
     if min_side_px >= _FULL_BELOW_PX:
         del plan[1.0]
     if min_side_px >= DOUBLE_BELOW_PX:
