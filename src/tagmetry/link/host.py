@@ -32,6 +32,7 @@ _MOST_AT_ONCE = 256
 _SENT_AT_ONCE = 4  # before the sender hears what has come meanwhile
 _GATHER_S = 0.001  # where packets come thick, a few are heard at a time: threads change less often
 _PATIENCE_US = 200_000  # with a program that neither sends nor pulses
+_OWN = frozenset(one for one, kind in KINDS.items() if BODIES[kind].sender == "host")
 
 
 def now_us() -> int:
@@ -114,7 +115,7 @@ class Host(Closing):
         peer = self._hearing.peers.get(robot_id)
         if peer is None:
             raise InputError(f"there is no robot {robot_id}: only {sorted(self._hearing.peers)}")
-        if BODIES[KINDS[type(message)]].sender != "host":
+        if type(message) not in _OWN:
             raise InputError(f"{type(message).__name__} is a message of robots, the host has none")
         self.pulse()
         if isinstance(message, Command) and self.is_stopped:
