@@ -4,30 +4,38 @@
 
 Images come from memory at their times, the newest wins, and what the loop was too late for counts
 as dropped. The time from image to packet is from when an image was due until all packets that it
-led to had left. Robots answer from a process of their own.
+led to had left. The robots are one program in C, which needs gcc; they tell their odometry too.
+Where other programs keep the cores busy: `chrt -f 1 python …`.
 """
 
 import argparse
-import multiprocessing
 import resource
+import subprocess
+import tempfile
 import time
+from collections import deque
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
 
 import cv2
 import numpy as np
 
+import tagmetry.link.client
 from tagmetry.arena import Arena, Neighbourhood, NeighbourSensor, OverheadView, Roster
 from tagmetry.camera import Image
 from tagmetry.detect import Detector, Tracker
 from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.lab.rigs.crowd import crowd, film
 from tagmetry.lab.rigs.overhead import CAMERA, FAMILY, T_WORLD_CAMERA
-from tagmetry.link import Host, RobotClient
+from tagmetry.link import Host
 from tagmetry.pipeline.arena import ArenaMeasurement, ArenaResult, Turning, run_arena
 from tagmetry.pipeline.arena.linked import LinkTaker
 
 _LENGTH = 6  # of the film, which is played there and back
 _WARM = 60  # images before the clock runs
+_SOURCES = Path(tagmetry.link.client.__file__).parent
 _KEYS = [bytes([n % 251 + 1, n // 251]) * 16 for n in range(1000)]
 
 
@@ -61,46 +69,89 @@ def measurement(count: int) -> ArenaMeasurement:
     return ArenaMeasurement(turning, CAMERA, detector, Tracker(detector), is_live=True)
 
 
-def answer(count: int, port: int) -> None:
-    """Be so many robots until killed."""
-    robots = [RobotClient(n, _KEYS[n], port=port) for n in range(count)]
-    while True:
-        for robot in robots:
-            robot.step(0.0)
-        time.sleep(0.01)
+@contextmanager
+def robots(count: int, port: int, odometry_hz: int) -> Iterator[None]:
+    """Be so many robots until the block ends."""
+    with tempfile.TemporaryDirectory() as folder:
+        program = Path(folder) / "robots"
+        own = Path(__file__).with_name("soak_robots.c")
+        linked = [_SOURCES / "tagmetry_link.c", _SOURCES / "tagmetry_posix.c"]
+        built = [
+            "gcc",
+            "-O2",
+            "-D_DEFAULT_SOURCE",
+            f"-I{_SOURCES}",
+            own,
+            *linked,
+            "-lm",
+            "-o",
+            program,
+        ]
+        subprocess.run(built, check=True)
+        running = subprocess.Popen([program, str(count), str(port), str(odometry_hz)])
+        try:
+            yield
+        finally:
+            running.kill()
+            running.wait()
 
 
-def soak(count: int, rate: float, seconds: float, every_s: float) -> str:
+def wait_until_linked(host: Host, longest_s: float = 20.0) -> None:
+    """Wait until the host hears all robots."""
+    end_s = time.monotonic() + longest_s
+    while time.monotonic() < end_s and not all(one.is_linked for one in host.links()):
+        host.pulse()
+        time.sleep(0.05)
+
+
+@dataclass
+class Tally:
+    """What a run gave, image by image."""
+
+    to_packet_s: list[float] = field(default_factory=list)
+    newest: deque[ArenaResult] = field(default_factory=lambda: deque(maxlen=1000))
+
+    def add(self, result: ArenaResult) -> None:
+        self.to_packet_s.append(time.monotonic() - result.taken_s)
+        self.newest.append(result)
+
+    def told(self) -> str:
+        """Return the times in words."""
+        middle, tail, most = np.quantile(1000 * np.array(self.to_packet_s), [0.5, 0.99, 1.0])
+        names = ("detect_s", "follow_s", "tell_s", "drive_s")
+        medians_ms = [
+            1000 * np.median([getattr(one.times, name) for one in self.newest]) for name in names
+        ]
+        stages = ", ".join(
+            f"{name[:-2]} {ms:.2f}" for name, ms in zip(names, medians_ms, strict=True)
+        )
+        return (
+            f"image to packet {middle:.2f} ms (median), {tail:.2f} (99 %), {most:.1f} (longest); "
+            f"median ms: {stages}"
+        )
+
+
+def soak(count: int, asked: argparse.Namespace) -> str:
     """Return what a run gave, in words."""
-    pictures, loop = pictures_of(count), measurement(count)
+    pictures, loop, tally = pictures_of(count), measurement(count), Tally()
     for k in range(_WARM):
         loop.measure(Image(pictures[0], time.monotonic(), "capture", k, "memory"))
-    images = NewestDue(pictures, rate, seconds)
-    to_packet_s: list[float] = []
-    results: list[ArenaResult] = []
-    begun_mb = memory_mb()
-    with Host({n: _KEYS[n] for n in range(count)}, port=0) as host:
-        robots = multiprocessing.Process(target=answer, args=(count, host.address[1]), daemon=True)
-        robots.start()
-        for result in run_arena(images, loop, [LinkTaker(host, 0.3, every_s=every_s)]):
-            to_packet_s.append(time.monotonic() - result.taken_s)
-            results.append(result)
-            results = results[-1000:]
-        linked = sum(one.is_linked for one in host.links())
-        robots.terminate()
-    counted_ms = 1000 * np.array(to_packet_s)
-    middle, tail, most = np.quantile(counted_ms, [0.5, 0.99, 1.0])
-    stages = {
-        name: 1000 * float(np.median([getattr(one.times, name) for one in results]))
-        for name in ("detect_s", "follow_s", "tell_s", "drive_s")
-    }
-    told = ", ".join(f"{name[:-2]} {ms:.2f}" for name, ms in stages.items())
-    seen = np.mean([len(one.step.seen) for one in results])
+    images, begun_mb = NewestDue(pictures, asked.rate, asked.seconds), memory_mb()
+    with (
+        Host({n: _KEYS[n] for n in range(count)}, port=0) as host,
+        robots(count, host.address[1], asked.odometry_hz),
+    ):
+        wait_until_linked(host)
+        began_s = time.process_time()
+        for result in run_arena(images, loop, [LinkTaker(host, 0.3, every_s=asked.send_every)]):
+            tally.add(result)
+        busy = (time.process_time() - began_s) / asked.seconds
+        linked, heard = sum(one.is_linked for one in host.links()), len(host.take())
+    seen, done = np.mean([len(one.step.seen) for one in tally.newest]), len(tally.to_packet_s)
     return (
-        f"{count} robots, {seen:.1f} seen, {linked} linked: {len(to_packet_s)} images at "
-        f"{len(to_packet_s) / seconds:.1f} per s, {images.dropped} dropped; image to packet "
-        f"{middle:.2f} ms (median), {tail:.2f} (99 %), {most:.1f} (longest); "
-        f"median ms: {told}; memory {begun_mb:.0f} MB, in the end {memory_mb():.0f}"
+        f"{count} robots, {seen:.1f} seen, {linked} linked, {heard} messages kept: "
+        f"{done} images at {done / asked.seconds:.1f} per s, {images.dropped} dropped; {tally.told()}; "
+        f"{100 * busy:.0f} % of a core; memory {begun_mb:.0f} MB, in the end {memory_mb():.0f}"
     )
 
 
@@ -121,10 +172,11 @@ def main() -> None:
     parser.add_argument("--robots", type=int, nargs="+", default=[24])
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--send-every", type=float, default=0.0, help="s; 0 is with every image")
+    parser.add_argument("--odometry-hz", type=int, default=50, help="of every robot; 0 is none")
     asked = parser.parse_args()
     cv2.setNumThreads(asked.threads)
     for count in asked.robots:
-        print(soak(count, asked.rate, asked.seconds, asked.send_every), flush=True)
+        print(soak(count, asked), flush=True)
 
 
 if __name__ == "__main__":

@@ -14,14 +14,15 @@ from typing import Self
 
 from tagmetry.closing import Closing
 from tagmetry.errors import InputError
-from tagmetry.link.carrier import Address, Carrier
+from tagmetry.link.batched import open_carrier
+from tagmetry.link.carrier import Address, Carrier, Envelope
 from tagmetry.link.emergency import Emergency
 from tagmetry.link.hearing import Hearing
 from tagmetry.link.layout import Kind
 from tagmetry.link.messages import KINDS, Beat, Command, Hello, Message, Time
 from tagmetry.link.packet import Refusal
 from tagmetry.link.peer import Peer, RobotLink
-from tagmetry.link.sockets import LOOPBACK, UdpCarrier
+from tagmetry.link.sockets import LOOPBACK
 from tagmetry.link.traffic import Packet, Received
 from tagmetry.link.wire import BEAT_US, BODIES, KEY_BYTES, PORT
 
@@ -29,7 +30,7 @@ OnPacket = Callable[[Packet], None]
 
 _KEPT = 10_000  # messages that nobody takes
 _MOST_AT_ONCE = 256
-_SENT_AT_ONCE = 4  # before the sender hears what has come meanwhile
+_SENT_ONE_BY_ONE, _SENT_AT_ONCE = 4, 32  # before the sender hears what has come meanwhile
 _GATHER_S = 0.001  # where packets come thick, a few are heard at a time: threads change less often
 _PATIENCE_US = 200_000  # with a program that neither sends nor pulses
 _OWN = frozenset(one for one, kind in KINDS.items() if BODIES[kind].sender == "host")
@@ -70,7 +71,7 @@ class Host(Closing):
         """
         _check_keys(keys)
         self._hearing = Hearing({key: _peer(key, keys[key]) for key in keys})
-        self._carrier = carrier if carrier is not None else UdpCarrier(address, port)
+        self._carrier = carrier if carrier is not None else open_carrier(address, port)
         self._emergency = Emergency()
         self._on_packet = on_packet
         self._received: deque[Received] = deque(maxlen=_KEPT)
@@ -112,27 +113,27 @@ class Host(Closing):
             InputError: There is no such robot, a robot sends such messages itself, or the message
                 holds what cannot be sent.
         """
-        peer = self._hearing.peers.get(robot_id)
-        if peer is None:
-            raise InputError(f"there is no robot {robot_id}: only {sorted(self._hearing.peers)}")
-        if type(message) not in _OWN:
-            raise InputError(f"{type(message).__name__} is a message of robots, the host has none")
+        peer = self._peer(robot_id, message)
         self.pulse()
-        if isinstance(message, Command) and self.is_stopped:
-            return False
         self._hear_between()
         return self._send(peer, message)
 
     def send_all(self, messages: Sequence[tuple[int, Message]]) -> int:
-        """Send messages to robots, given by id, one after another.
+        """Send messages to robots, given by id, in one go.
 
         Returns:
             How many left, as `send` tells it of each.
 
         Raises:
-            InputError: As of `send`; those before have left.
+            InputError: As of `send`.
         """
-        return sum(self.send(robot_id, message) for robot_id, message in messages)
+        asked = [(self._peer(robot_id, message), message) for robot_id, message in messages]
+        self.pulse()
+        left = 0
+        for first in range(0, len(asked), _SENT_AT_ONCE):
+            left += self._send_some(asked[first : first + _SENT_AT_ONCE])
+            self._hear_meanwhile()
+        return left
 
     def pulse(self) -> None:
         """Say that the program is alive, where it has nothing to send."""
@@ -183,7 +184,11 @@ class Host(Closing):
     def _hear_between(self) -> None:
         """Hear from the program's thread now and then: while it sends, the link's waits for it."""
         self._sent_count += 1
-        if self._sent_count % _SENT_AT_ONCE == 0 and self._hearer.acquire(blocking=False):
+        if self._sent_count % _SENT_ONE_BY_ONE == 0:
+            self._hear_meanwhile()
+
+    def _hear_meanwhile(self) -> None:
+        if self._hearer.acquire(blocking=False):
             try:
                 self._hear_some()
             finally:
@@ -195,12 +200,10 @@ class Host(Closing):
 
     def _hear_some(self) -> int:
         """Hear what has arrived, but leave time for the beats in a flood; return how many."""
-        for count in range(_MOST_AT_ONCE):
-            found = self._carrier.read()
-            if found is None:
-                return count
-            self._hear(*found)
-        return _MOST_AT_ONCE
+        found = self._carrier.read_some(_MOST_AT_ONCE)
+        for packet, address in found:
+            self._hear(packet, address)
+        return len(found)
 
     def _hear(self, packet: bytes, address: Address) -> None:
         with self._lock:
@@ -227,12 +230,37 @@ class Host(Closing):
             elif is_alive and now - peer.sent_us >= BEAT_US // 2:
                 self._send(peer, Beat())
 
+    def _peer(self, robot_id: int, message: Message) -> Peer:
+        """Return the robot that a message is for."""
+        peer = self._hearing.peers.get(robot_id)
+        if peer is None:
+            raise InputError(f"there is no robot {robot_id}: only {sorted(self._hearing.peers)}")
+        if type(message) not in _OWN:
+            raise InputError(f"{type(message).__name__} is a message of robots, the host has none")
+        return peer
+
     def _send(self, peer: Peer, message: Message) -> bool:
         with self._lock:
-            if not peer.has_session or peer.address is None:
-                return False
-            packet, address = peer.seal(message, now_us()), peer.address
-        return self._write(peer, KINDS[type(message)], packet, address)
+            sealed = self._sealed(peer, message)
+        return sealed is not None and self._write(peer, KINDS[type(message)], *sealed)
+
+    def _send_some(self, messages: Sequence[tuple[Peer, Message]]) -> int:
+        with self._lock:
+            sealed = [(*one, self._sealed(*one)) for one in messages]
+        ready = [(peer, message, one) for peer, message, one in sealed if one is not None]
+        left = self._carrier.write_all([one for _, _, one in ready])
+        for (peer, message, (packet, _)), has_left in zip(ready, left, strict=True):
+            if has_left:
+                self._tell(peer, KINDS[type(message)], packet, is_incoming=False)
+        return sum(left)
+
+    def _sealed(self, peer: Peer, message: Message) -> Envelope | None:
+        """Return a packet and its way; None where there is no way, or no command may go it."""
+        if not peer.has_session or peer.address is None:
+            return None
+        if self.is_stopped and isinstance(message, Command):
+            return None
+        return peer.seal(message, now_us()), peer.address
 
     def _write(self, peer: Peer, kind: Kind, packet: bytes, address: Address) -> bool:
         """Send without the lock: both threads get their turn while the system is asked."""

@@ -8,14 +8,14 @@ import selectors
 import socket
 
 from tagmetry.errors import InputError
-from tagmetry.link.carrier import Address
+from tagmetry.link.carrier import Address, Envelope, OneByOne
 
 LOOPBACK = "127.0.0.1"
 _MOST_ERRORS = 256  # at once
 _BUFFER_BYTES = 4 * 2**20  # the system grants what it allows
 
 
-class UdpCarrier:
+class UdpCarrier(OneByOne):
     """Carries packets in UDP."""
 
     def __init__(self, address: str, port: int) -> None:
@@ -34,7 +34,7 @@ class UdpCarrier:
         """Wait until a packet is there, at most so long; say whether one is."""
         return bool(self._selector.select(timeout_s))
 
-    def read(self) -> tuple[bytes, Address] | None:
+    def read(self) -> Envelope | None:
         """Return a packet and who sent it; None where none is there."""
         for _ in range(_MOST_ERRORS):
             try:

@@ -3,7 +3,7 @@
 from collections.abc import Collection
 
 from tagmetry.errors import InputError
-from tagmetry.link.carrier import Address
+from tagmetry.link.carrier import Address, Envelope, OneByOne
 from tagmetry.link.computers.keys import command_key_of
 from tagmetry.link.computers.mailbox import Mailbox
 from tagmetry.link.computers.net import Net
@@ -12,7 +12,7 @@ from tagmetry.link.host import Host
 from tagmetry.link.wire import KEY_BYTES
 
 
-class NetCarrier:
+class NetCarrier(OneByOne):
     """Carries packets between a computer that commands and an arena; a robot's address is its name.
 
     Attributes:
@@ -30,7 +30,7 @@ class NetCarrier:
         """Wait until a packet is there, at most so long; say whether one is."""
         return self._mailbox.wait(timeout_s)
 
-    def read(self) -> tuple[bytes, Address] | None:
+    def read(self) -> Envelope | None:
         """Return a packet and its robot's name; None where none is there."""
         found = self._mailbox.take()
         return None if found is None else (found[1], (robot_of(found[0]), 0))
