@@ -10,7 +10,8 @@ import numpy as np
 from tagmetry.errors import InputError
 from tagmetry.pipeline.location import Located
 from tagmetry.record.jsonl import LinesWriter
-from tagmetry.record.line import printable, quaternion_xyzw
+from tagmetry.record.line import printable
+from tagmetry.record.told import quaternion_xyzw
 from tagmetry.record.whole import WholeFileWriter, Writer
 
 

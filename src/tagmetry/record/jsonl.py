@@ -17,8 +17,9 @@ from pydantic import ValidationError
 from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.files.atomic import refusing
-from tagmetry.record.line import ImageLine, first_complaint, from_line, to_line
+from tagmetry.record.line import ImageLine, first_complaint
 from tagmetry.record.result import ImageResult
+from tagmetry.record.told import from_line, to_line
 
 Item = TypeVar("Item")
 

@@ -9,8 +9,9 @@ from pydantic import ValidationError
 
 from tagmetry import __version__
 from tagmetry.errors import InputError, MissingExtraError
-from tagmetry.record.line import ImageLine, first_complaint, from_line, to_line
+from tagmetry.record.line import ImageLine, first_complaint
 from tagmetry.record.result import ImageResult
+from tagmetry.record.told import from_line, to_line
 
 if TYPE_CHECKING:
     import pyarrow as pa

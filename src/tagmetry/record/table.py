@@ -13,8 +13,9 @@ from typing import BinaryIO
 import numpy as np
 
 from tagmetry.pose.result import MarkerPose
-from tagmetry.record.line import printable, quaternion_xyzw
+from tagmetry.record.line import printable
 from tagmetry.record.result import ImageResult, MarkerResult
+from tagmetry.record.told import quaternion_xyzw
 
 IMAGE_COLUMNS = ("source", "sequence", "time_s", "time_kind", "width_px", "height_px")
 MARKER_COLUMNS = (

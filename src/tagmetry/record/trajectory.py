@@ -12,8 +12,8 @@ import numpy as np
 
 from tagmetry.errors import InputError
 from tagmetry.geometry import RigidTransform
-from tagmetry.record.line import quaternion_xyzw
 from tagmetry.record.result import ImageResult
+from tagmetry.record.told import quaternion_xyzw
 
 MarkerKey = tuple[str, int]  # family and id
 
