@@ -150,8 +150,9 @@ def soak(count: int, asked: argparse.Namespace) -> str:
     seen, done = np.mean([len(one.step.seen) for one in tally.newest]), len(tally.to_packet_s)
     return (
         f"{count} robots, {seen:.1f} seen, {linked} linked, {heard} messages kept: "
-        f"{done} images at {done / asked.seconds:.1f} per s, {images.dropped} dropped; {tally.told()}; "
-        f"{100 * busy:.0f} % of a core; memory {begun_mb:.0f} MB, in the end {memory_mb():.0f}"
+        f"{done} images at {done / asked.seconds:.1f} per s, {images.dropped} dropped; "
+        f"{tally.told()}; {100 * busy:.0f} % of a core; "
+        f"memory {begun_mb:.0f} MB, in the end {memory_mb():.0f}"
     )
 
 

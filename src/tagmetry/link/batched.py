@@ -9,7 +9,6 @@ Reference: the Linux manual, sendmmsg(2), recvmmsg(2), ip(7).
 import ctypes
 import socket
 import struct
-import sys
 import threading
 from collections.abc import Sequence
 
@@ -151,12 +150,3 @@ def _forget_many(known: dict[bytes, Address] | dict[Address, bytes]) -> None:
     """Keep what strangers can fill from growing."""
     if len(known) >= _MOST_KNOWN:
         known.clear()
-
-
-def open_carrier(address: str, port: int) -> UdpCarrier:
-    """Return the quickest carrier of this computer.
-
-    Raises:
-        InputError: As of `open_socket`.
-    """
-    return (BatchedUdpCarrier if sys.platform == "linux" else UdpCarrier)(address, port)

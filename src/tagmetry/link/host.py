@@ -14,7 +14,6 @@ from typing import Self
 
 from tagmetry.closing import Closing
 from tagmetry.errors import InputError
-from tagmetry.link.batched import open_carrier
 from tagmetry.link.carrier import Address, Carrier, Envelope
 from tagmetry.link.emergency import Emergency
 from tagmetry.link.hearing import Hearing
@@ -22,7 +21,7 @@ from tagmetry.link.layout import Kind
 from tagmetry.link.messages import KINDS, Beat, Command, Hello, Message, Time
 from tagmetry.link.packet import Refusal
 from tagmetry.link.peer import Peer, RobotLink
-from tagmetry.link.sockets import LOOPBACK
+from tagmetry.link.sockets import LOOPBACK, open_carrier
 from tagmetry.link.traffic import Packet, Received
 from tagmetry.link.wire import BEAT_US, BODIES, KEY_BYTES, PORT
 

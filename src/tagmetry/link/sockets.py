@@ -6,6 +6,7 @@ It is the carrier of packets where no other is named.
 import errno
 import selectors
 import socket
+import sys
 
 from tagmetry.errors import InputError
 from tagmetry.link.carrier import Address, Envelope, OneByOne
@@ -57,6 +58,19 @@ class UdpCarrier(OneByOne):
         """Close the socket."""
         self._selector.close()
         self._socket.close()
+
+
+def open_carrier(address: str, port: int) -> UdpCarrier:
+    """Return the quickest carrier of this computer.
+
+    Raises:
+        InputError: As of `open_socket`.
+    """
+    if sys.platform != "linux":
+        return UdpCarrier(address, port)
+    from tagmetry.link.batched import BatchedUdpCarrier  # with NumPy, which robots need not have
+
+    return BatchedUdpCarrier(address, port)
 
 
 def open_socket(address: str, port: int) -> socket.socket:
