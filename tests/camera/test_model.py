@@ -31,6 +31,17 @@ def opencv_projection(camera: Camera, p_camera: np.ndarray) -> tuple[np.ndarray,
 
 
 @every_camera
+def test_every_number_has_a_name_of_its_own(camera: Camera) -> None:
+    names = camera.parameter_names
+    assert len(set(names)) == camera.parameter_count
+
+
+def test_numbers_are_called_as_opencv_does() -> None:
+    assert " ".join(CAMERAS["brown5"].parameter_names) == "fx fy cx cy k1 k2 p1 p2 k3"
+    assert " ".join(CAMERAS["fisheye"].parameter_names) == "fx fy cx cy k1 k2 k3 k4"
+
+
+@every_camera
 def test_projects_as_opencv(camera: Camera) -> None:
     expected, _ = opencv_projection(camera, points_ahead())
     np.testing.assert_allclose(camera.project(points_ahead()), expected, atol=1e-9)

@@ -12,6 +12,7 @@ from tagmetry.errors import InputError
 from tagmetry.geometry.arrays import Array
 
 BROWN_COUNTS = (0, 4, 5, 8, 12, 14)
+_NAMES = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tx", "ty")
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,11 @@ class BrownLens:
                 f"{len(self.coefficients)}; a fisheye lens is a model of its own"
             )
         check_finite(self.coefficients)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What the coefficients are called, one by one."""
+        return _NAMES[: len(self.coefficients)]
 
     @cached_property
     def _all(self) -> Array:

@@ -30,6 +30,11 @@ class FisheyeLens:
             )
         check_finite(self.coefficients)
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What the coefficients are called, one by one."""
+        return ("k1", "k2", "k3", "k4")
+
     @cached_property
     def fold_angle_rad(self) -> float:
         """Angle from the optical axis up to which the lens is one to one, at most pi."""

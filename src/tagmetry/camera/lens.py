@@ -25,6 +25,10 @@ class Lens(Protocol):
         """The coefficients in OpenCV's order."""
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """What the coefficients are called, one by one."""
+
+    @property
     def fold_angle_rad(self) -> float:
         """Angle from the optical axis up to which the lens is one to one."""
 

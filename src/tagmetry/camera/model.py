@@ -81,6 +81,11 @@ class Camera:
         return self.width_px, self.height_px
 
     @property
+    def parameter_names(self) -> tuple[str, ...]:
+        """What the numbers are called that describe the camera."""
+        return ("fx", "fy", "cx", "cy", *self.lens.names)
+
+    @property
     def parameter_count(self) -> int:
         """How many numbers describe the camera: fx, fy, cx, cy and the coefficients."""
         return 4 + len(self.lens.coefficients)

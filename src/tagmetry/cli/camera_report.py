@@ -4,8 +4,6 @@ import numpy as np
 
 from tagmetry.camera import Camera, distortion_reach
 
-_NAMES = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tx", "ty")
-
 
 def camera_table(camera: Camera) -> dict[str, object]:
     """Return a camera's numbers for JSON."""
@@ -34,19 +32,13 @@ def camera_lines(camera: Camera) -> list[str]:
     spreads = [f" ± {s:.2g}" for s in _deviations(camera) or []] or [""] * len(values)
     across, down = _view_deg(camera)
     lines = [f"{camera.name}: {camera.width_px}x{camera.height_px}, {camera.lens.kind} lens"]
-    for name, value, spread in zip(_parameter_names(camera), values, spreads, strict=True):
+    for name, value, spread in zip(camera.parameter_names, values, spreads, strict=True):
         lines.append(f"  {name:<3} {value:12.6g}{spread}")
     if np.isfinite([across, down]).all():
         lines.append(f"  sees {across:.1f}° across and {down:.1f}° down through the middle")
     if camera.covariance is None:
         lines.append("  uncertainty unknown: the file holds no covariance")
     return [*lines, *_provenance(camera), *_warnings(camera)]
-
-
-def _parameter_names(camera: Camera) -> list[str]:
-    fisheye = camera.lens.kind == "fisheye"
-    names = ("k1", "k2", "k3", "k4") if fisheye else _NAMES
-    return ["fx", "fy", "cx", "cy", *names[: len(camera.lens.coefficients)]]
 
 
 def _deviations(camera: Camera) -> list[float] | None:

@@ -16,8 +16,6 @@ _TOO_SMALL = 1.5  # times the formula's standard deviation
 _DECISIVE = 2.0  # standard deviations that one view moves the camera
 _FLAT_DEG = 15.0
 _NEGLIGIBLE_PX = 0.03  # a pattern in the residuals that moves nothing anyone measures
-_BROWN = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tx", "ty")
-_FISHEYE = ("k1", "k2", "k3", "k4")
 
 
 def doubts(calibration: Calibration, evidence: Evidence) -> tuple[str, ...]:
@@ -123,9 +121,8 @@ def _insignificant(calibration: Calibration) -> str | None:
     if covariance is None:
         return None
     values, sd = np.array(lens.coefficients), np.sqrt(np.diag(covariance)[4:])
-    names = _FISHEYE if lens.kind == "fisheye" else _BROWN
     weak = [
-        f"{names[i]} ({values[i]:.2g} with a standard deviation of {sd[i]:.2g})"
+        f"{lens.names[i]} ({values[i]:.2g} with a standard deviation of {sd[i]:.2g})"
         for i in np.flatnonzero((sd > 0) & (np.abs(values) < _SIGNIFICANT * sd))
     ]
     if not weak:

@@ -8,10 +8,10 @@ from tagmetry.geometry import Array
 from tagmetry.lab.beside.quantities import values_of
 from tagmetry.lab.conclusions import Check, Conclusions
 from tagmetry.lab.published.seed003 import seed003
+from tagmetry.lab.rigs.camera_numbers import PARAMETERS
 from tagmetry.lab.rows import Quantity
 from tagmetry.record.report import Cell, ReportTable
 
-_PARAMETERS = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
 _ERRORS = ("rms px", "tutorial error px", "projection rms px", "views")
 _TRUTH = (
     "The published camera is the true one here: the errors are those of finding it again. Three of "
@@ -37,7 +37,7 @@ def conclude(rows: Sequence[Quantity]) -> Conclusions:
     return Conclusions(
         checks=(check,),
         tables=(
-            _table("seed003_camera", "Tables 3 and 4: the camera", rows, _PARAMETERS),
+            _table("seed003_camera", "Tables 3 and 4: the camera", rows, PARAMETERS),
             _errors(rows),
             _table(
                 "seed003_poses",

@@ -13,9 +13,6 @@ from tagmetry.calibrate.result import Calibration
 from tagmetry.record.calibration_report.facts import CalibrationFacts
 from tagmetry.record.report import Cell, ReportTable
 
-_BROWN = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tx", "ty")
-_FISHEYE = ("k1", "k2", "k3", "k4")
-
 
 def seed_tables(facts: CalibrationFacts) -> tuple[ReportTable, ...]:
     """Return camera matrix, distortion, poses of the views, and errors."""
@@ -38,7 +35,7 @@ def matrix_table(calibration: Calibration) -> ReportTable:
 
 def distortion_table(calibration: Calibration) -> ReportTable:
     """Return the lens' coefficients with their standard deviations."""
-    names = parameter_names(calibration)[4:]
+    names = calibration.camera.lens.names
     rows = tuple(
         (name, value, honest, formula)
         for name, value, honest, formula in parameter_rows(calibration)
@@ -62,15 +59,8 @@ def parameter_rows(calibration: Calibration) -> tuple[tuple[str, float, float, f
     values = (*camera.focal_px, *camera.center_px, *camera.lens.coefficients)
     covariance = formula if camera.covariance is None else camera.covariance
     spreads = (np.sqrt(np.maximum(np.diag(one), 0)) for one in (covariance, formula))
-    each = zip(parameter_names(calibration), values, *spreads, strict=True)
+    each = zip(camera.parameter_names, values, *spreads, strict=True)
     return tuple((name, float(v), float(honest), float(usual)) for name, v, honest, usual in each)
-
-
-def parameter_names(calibration: Calibration) -> tuple[str, ...]:
-    """Return fx, fy, cx, cy and the coefficients' names."""
-    lens = calibration.camera.lens
-    names = _FISHEYE if lens.kind == "fisheye" else _BROWN
-    return ("fx", "fy", "cx", "cy", *names[: len(lens.coefficients)])
 
 
 def pose_table(calibration: Calibration) -> ReportTable:
