@@ -177,11 +177,11 @@ def open_host(
     """Return the link's host at an address like 192.168.1.5:47474, which is recorded if wanted."""
     from tagmetry.errors import InputError
     from tagmetry.link import PORT, Host, Packet
-    from tagmetry.pipeline.arena.recorded import packet_record
+    from tagmetry.pipeline.arena.recorded import record_packet
 
     def note(packet: Packet) -> None:
         if recorder is not None:
-            recorder.packet(packet_record(packet))
+            record_packet(recorder, packet)
 
     address, _, port = link.partition(":")
     if port and not (port.isdecimal() and int(port) <= 0xFFFF):

@@ -112,8 +112,13 @@ def _number(value: float) -> Number:
     return float(value) if np.isfinite(value) else None
 
 
+def _finite(number: Number) -> Number:
+    return None if number is None else _number(number)
+
+
 def _numbers(matrix: Array) -> list[list[Number]]:
-    return [[_number(value) for value in row] for row in np.asarray(matrix).tolist()]
+    rows: list[list[Number]] = np.asarray(matrix, dtype=np.float64).tolist()
+    return rows if np.isfinite(matrix).all() else [list(map(_finite, row)) for row in rows]
 
 
 def _float(number: Number) -> float:

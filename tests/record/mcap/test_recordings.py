@@ -24,6 +24,7 @@ from tagmetry.record.mcap import (
     Replay,
     read_entries,
 )
+from tagmetry.record.mcap.images import image_text, parse_image
 from tagmetry.record.mcap.packets import parse_packet
 from tagmetry.record.mcap.pieces import PieceWriter
 from tagmetry.record.mcap.states import parse_state
@@ -53,6 +54,14 @@ def test_all_that_was_taken_is_read_again(tmp_path: Path) -> None:
     assert found.robots[0]._replace(covariance=None) == ROBOT._replace(covariance=None)
     assert parse_packet(contents_of(path, PACKETS)[0]) == PACKET
     assert json.loads(contents_of(path, "/latency")[0]) == {"total_s": 0.012, "none": None}
+
+
+@pytest.mark.parametrize("source", ["", 'a "quoted" one', '"data":""', "\n\\ü"])
+def test_an_image_is_json_whatever_its_source_is_called(source: str) -> None:
+    told = json.loads(image_text(replace(IMAGE, source=source), None))
+    assert told["tagmetry"]["source"] == source
+    assert base64.b64decode(told["data"]).startswith(b"\x89PNG")
+    np.testing.assert_array_equal(parse_image(json.dumps(told).encode()).pixels, IMAGE.pixels)
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (48, 64), (48, 64, 3)])

@@ -1,11 +1,10 @@
 """An arena's run into a recording: images, markers, states, and every packet."""
 
-from dataclasses import asdict
-
-from tagmetry.link import Packet, packet_message
+from tagmetry.link import Message, Neighbours, Packet, packet_message
 from tagmetry.pipeline.arena.measurement import ArenaResult
 from tagmetry.record import ImageResult
-from tagmetry.record.mcap import PacketRecord, Recorder
+from tagmetry.record.mcap import PACKETS, PacketRecord, Recorder
+from tagmetry.record.mcap.packets import packet_text
 
 LATENCY = "/latency"
 
@@ -32,10 +31,22 @@ class RecorderTaker:
         """Nothing comes last."""
 
 
-def packet_record(packet: Packet) -> PacketRecord:
-    """Return a packet as it is recorded, with what it says."""
+def record_packet(recorder: Recorder, packet: Packet) -> None:
+    """Record a packet and what it says, which is made out in the recorder's thread."""
+    recorder.line(PACKETS, packet.time_s, lambda: packet_text(_packet_record(packet)))
+
+
+def _packet_record(packet: Packet) -> PacketRecord:
     message = packet_message(packet)
-    says = asdict(message) if message is not None else None
+    says = _says(message) if message is not None else None
     return PacketRecord(
         packet.time_s, packet.robot_id, packet.kind.name, packet.is_incoming, packet.content, says
     )
+
+
+def _says(message: Message) -> dict[str, object]:
+    """Return a message's numbers by name."""
+    numbers: dict[str, object] = dict(vars(message))
+    if isinstance(message, Neighbours):
+        numbers["seen"] = [vars(one) for one in message.seen]
+    return numbers

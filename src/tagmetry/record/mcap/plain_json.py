@@ -9,10 +9,15 @@ import numpy as np
 
 from tagmetry.errors import InputError
 
+_ENCODER = json.JSONEncoder(separators=(",", ":"), allow_nan=False)
+
 
 def json_text(value: Mapping[str, object]) -> bytes:
     """Return the text; a number that is not finite becomes null."""
-    return json.dumps(_plain(value), separators=(",", ":"), allow_nan=False).encode()
+    try:
+        return _dumped(value)
+    except (TypeError, ValueError):  # it holds what JSON has not
+        return _dumped(_plain(value))
 
 
 def parse_object(text: bytes) -> dict[str, Any]:
@@ -28,6 +33,10 @@ def parse_object(text: bytes) -> dict[str, Any]:
     if not isinstance(told, dict):
         raise InputError("expected a JSON object, got something else")
     return told
+
+
+def _dumped(value: object) -> bytes:
+    return _ENCODER.encode(value).encode()
 
 
 def _plain(value: object) -> object:
