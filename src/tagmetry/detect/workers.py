@@ -10,21 +10,25 @@ import cv2
 
 A = TypeVar("A")
 B = TypeVar("B")
+_SHARES_EACH = 3
 
 
 def at_once(tasks: Sequence[Callable[[], A]]) -> list[A]:
     """Return the results of tasks, which are done at the same time as far as threads are free.
 
-    The first is done in this thread, and so is any other that no thread has begun by then: nothing
-    waits for work that is only queued, even where a fork left the threads behind.
+    The first is done in this thread, and then, from the last on, any other that no thread has begun
+    by then: nothing waits for work that is only queued, even where a fork left the threads behind.
     """
-    others = [(task, _pool().submit(task)) for task in tasks[1:]]
-    first = [task() for task in tasks[:1]]
-    return first + [task() if its.cancel() else its.result() for task, its in others]
+    others = [_pool().submit(task) for task in tasks[1:]]
+    own = [task() for task in tasks[:1]]
+    taken = {k: tasks[k]() for k in range(len(others), 0, -1) if others[k - 1].cancel()}
+    return own + [taken[k] if k in taken else its.result() for k, its in enumerate(others, 1)]
 
 
 def shares(count: int, least: int, threads: int) -> list[slice]:
     """Return `count` things as equal shares, at least one.
+
+    Of many things, each thread has several shares: whoever is done first takes one more.
 
     Args:
         count: How many things.
@@ -32,6 +36,8 @@ def shares(count: int, least: int, threads: int) -> list[slice]:
         threads: How many at most.
     """
     parts = max(1, min(threads, count // least))
+    if 1 < parts == threads:
+        parts *= max(1, min(_SHARES_EACH, count // (2 * least * threads)))
     ends = [count * k // parts for k in range(parts + 1)]
     return [slice(first, last) for first, last in pairwise(ends)]
 

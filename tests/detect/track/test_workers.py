@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from moving_markers import STEP_S, Shown, image
 
 from tagmetry.detect import Tracker
-from tagmetry.detect.workers import at_once, both, shares
+from tagmetry.detect.workers import _pool, at_once, both, shares
 
 
 @pytest.fixture(params=[1, 2])
@@ -34,7 +34,24 @@ def test_shares_are_all_of_it_and_none_too_small(count: int, least: int, threads
     parts = shares(count, least, threads)
     assert [k for part in parts for k in range(count)[part]] == list(range(count))
     assert len(parts) == 1 or min(part.stop - part.start for part in parts) >= least
-    assert len(parts) <= threads
+    assert len(parts) <= 3 * threads
+    assert len(parts) == 1 or len(parts) % threads == 0 or len(parts) < threads
+
+
+def test_whoever_is_done_first_takes_what_nobody_has_begun() -> None:
+    """With the pool held up, all but what it holds is done by the thread that asked."""
+    held, done_by = threading.Event(), []
+    asking = threading.get_ident()
+
+    def task(own: int) -> int:
+        done_by.append(threading.get_ident())
+        return own
+
+    blocked = [_pool().submit(held.wait, 5.0) for _ in range(cv2.getNumberOfCPUs())]
+    assert at_once([partial(task, k) for k in range(6)]) == list(range(6))
+    held.set()
+    assert all(one.result() for one in blocked)
+    assert set(done_by) == {asking}
 
 
 def test_two_tasks_give_two_results(threads: int) -> None:
