@@ -171,24 +171,26 @@ def at_level(
         levels: Below which each tile's pixels are dark.
         points: For the result, pixels of the image, shape (m, 2).
     """
+    last_x, last_y = grey.shape[1] - 1, grey.shape[0] - 1
     for i in range(len(points)):
         x, y, side = crack_at(cracks[i * every], shift)
         out_x, out_y = _OUT_X[side], _OUT_Y[side]
-        share = _crossing(grey, levels, x, y, out_x, out_y)
+        beside_x, beside_y = min(max(x + out_x, 0), last_x), min(max(y + out_y, 0), last_y)
+        dark, bright = _pixel(grey, x, y), _pixel(grey, beside_x, beside_y)
+        share = _crossing(dark, bright, _pixel(levels, x // TILE_PX, y // TILE_PX))
         points[i, 0] = x + share * out_x
         points[i, 1] = y + share * out_y
 
 
 @njit(cache=True, nogil=True)
-def _crossing(
-    grey: GreyPixels, levels: GreyPixels, x: int, y: int, out_x: int, out_y: int
-) -> float:
+def _pixel(grey: GreyPixels, x: int, y: int) -> float:
+    """Return a pixel that is in the image; no number is taken for one from its end."""
+    return float(grey[np.uint64(y), np.uint64(x)])
+
+
+@njit(cache=True, nogil=True)
+def _crossing(dark: float, bright: float, level: float) -> float:
     """Return how far from a dark pixel to its neighbour the level is passed, 0 to 1."""
-    beside_x, beside_y = x + out_x, y + out_y
-    if not (0 <= beside_x < grey.shape[1] and 0 <= beside_y < grey.shape[0]):
-        return 0.5
-    dark, bright = float(grey[y, x]), float(grey[beside_y, beside_x])
     if bright <= dark:
-        return 0.5
-    level = levels[y // TILE_PX, x // TILE_PX] - 0.5
-    return float(min(max((level - dark) / (bright - dark), 0.0), 1.0))
+        return 0.5  # beside it the image ends
+    return float(min(max((level - 0.5 - dark) / (bright - dark), 0.0), 1.0))
