@@ -11,7 +11,7 @@ import pytest
 from air import ROBOTS, Air
 from compiled import SOURCES, build
 
-from tagmetry.link import Command
+from tagmetry.link import Command, EmergencyStop
 from tagmetry.link.messages import Beat
 
 HOST = """
@@ -139,3 +139,30 @@ def is_delivered(air: Air, item: tuple[int, bytes]) -> bool:
         return False
     air.to_robot(packet)
     return True
+
+
+@pytest.mark.parametrize("client", ROBOTS)
+def test_an_emergency_stop_comes_in_time_in_a_thousand_faults(client: str) -> None:
+    """Of its repetitions some are lost, late or doubled, and commands of before come after it."""
+    rng = random.Random(4)  # noqa: S311
+    for _ in range(1000):
+        air = Air(ROBOTS[client](), robot_ahead_us=rng.randint(10**9, 10**12))
+        air.link(delay_us=rng.randint(100, 60_000))
+        before = [air.send(Command(0.5, valid_for_ms=60_000)) for _ in range(8)]
+        air.to_robot(before[0])
+        assert air.robot.command(air.robot_us).forward_mps == 0.5
+        pressed_us, held = air.host_us, [(air.host_us + rng.randint(0, 400_000), p) for p in before]
+        while air.host_us < pressed_us + 600_000:
+            air.wait(25_000)
+            said_again = [air.send(EmergencyStop(1, 1))] * rng.choice([0, 0, 1, 1, 2])
+            held += [(air.host_us + rng.randint(0, 200_000), packet) for packet in said_again]
+            was_stopped = is_stopped(air)
+            held = [item for item in held if not is_delivered(air, item)]
+            assert is_stopped(air) >= was_stopped
+            is_moving = air.robot.command(air.robot_us).forward_mps > 0
+            assert not (is_moving and (is_stopped(air) or air.host_us > pressed_us + 300_000))
+        assert is_stopped(air)
+
+
+def is_stopped(air: Air) -> bool:
+    return bool(air.robot.is_stopped)
