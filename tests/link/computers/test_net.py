@@ -41,8 +41,11 @@ def test_a_key_of_another_length_is_refused(key: bytes) -> None:
 def test_ids_and_names_that_cannot_be_are_refused() -> None:
     with pytest.raises(InputError, match="expected robots' ids, 0 to 65534, got 65535"):
         Commander("tcp/127.0.0.1:7447", [65535], KEY)
-    with pytest.raises(InputError, match="have names of their own"):
+    with pytest.raises(InputError, match="by name, and two are called 'ada'"):
         ArenaBridge("lab", {1: "ada", 2: "ada"}, listen=free_endpoint())
+    for number in (65535, -1):
+        with pytest.raises(InputError, match=f"ids from 0 to 65534, got {number}"):
+            ArenaBridge("lab", {number: "ada"}, listen=free_endpoint())
 
 
 @pytest.fixture

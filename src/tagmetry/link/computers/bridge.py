@@ -61,9 +61,7 @@ class ArenaBridge(Closing):
             MissingExtraError: Zenoh is not installed.
         """
         self._topics = Topics(arena)
-        self._names = {key: checked_name(name, "robot") for key, name in robots.items()}
-        if len(set(self._names.values())) < len(self._names) or ARENA_ID in self._names:
-            raise InputError("robots that other computers see have names of their own, ids < 65535")
+        self._names = _checked_names(robots)
         self._broadcast = Broadcast(view_key, lambda: secrets.randbits(64))
         obeying = () if command_key is None else tuple(robots)
         self._stand_ins = StandIns(obeying, command_key or b"", lambda: secrets.randbits(64))
@@ -150,3 +148,15 @@ class ArenaBridge(Closing):
             due = self._stand_ins.due(now_us())
         for robot_id, packet in due:
             self._net.tell(self._topics.answer(self._names[robot_id]), packet, is_urgent=True)
+
+
+def _checked_names(robots: Mapping[int, str]) -> dict[int, str]:
+    names = {key: checked_name(name, "robot") for key, name in robots.items()}
+    beyond = [key for key in names if not 0 <= key < ARENA_ID]
+    if beyond:
+        raise InputError(f"other computers tell robots by ids from 0 to 65534, got {beyond[0]}")
+    said = list(names.values())
+    twice = [name for name in said if said.count(name) > 1]
+    if twice:
+        raise InputError(f"other computers tell robots by name, and two are called {twice[0]!r}")
+    return names

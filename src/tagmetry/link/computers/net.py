@@ -114,13 +114,14 @@ def _opened(listen: str | None, connect: str | None) -> "Session":
 
 def _refusal(said: str, listen: str | None, connect: str | None) -> str:
     """Return on one line why the net was not joined; the package tells it at length."""
-    reason = _REASON.search(said)
-    if reason is not None and listen is not None:
+    if connect is not None and "listener" not in said:
         return (
-            f"cannot listen at {listen}: {reason[1]}; end the other program, or name another port "
-            "or an address of this computer"
+            f"nobody answers at {connect}; is the arena running there, and does its file say "
+            "`zenoh: {listen: …}` with this port?"
         )
+    found = _REASON.search(said)
+    reason = found[1] if found is not None else "it is refused"
     return (
-        f"nobody answers at {connect}; is the arena running there, and does its file say "
-        "`zenoh: {listen: …}` with this port?"
+        f"cannot listen at {listen}: {reason}; end the other program, or name another port or an "
+        "address of this computer"
     )
