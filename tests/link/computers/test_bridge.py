@@ -3,6 +3,7 @@
 import signal
 import sys
 import time
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -29,6 +30,7 @@ import sys, time
 from peers import VIEW_KEY
 from tagmetry.link.computers import ArenaView
 with ArenaView(sys.argv[1], "lab", VIEW_KEY) as view:
+    print("open", flush=True)
     while view.wait() is None:
         pass
     print("looks", flush=True)
@@ -41,31 +43,40 @@ def look(endpoint: str) -> ArenaView:
     return ArenaView(endpoint, "lab", VIEW_KEY)
 
 
+def counting(endpoint: str, came: Counter[str]) -> ArenaView:
+    """Return a view that counts what comes, by topic."""
+    view = look(endpoint)
+    hear = view._hear
+    view._hear = lambda topic, packet: (came.update([topic]), hear(topic, packet))
+    return view
+
+
 @pytest.mark.parametrize("seconds", [3, pytest.param(60, marks=pytest.mark.slow)])
-def test_nothing_is_lost_of_24_robots_at_120_images_a_second(
-    seconds: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("tagmetry.link.session.LATE_US", 10**8)  # however busy the computer is
+def test_nothing_is_lost_of_24_robots_at_120_images_a_second(seconds: int) -> None:
     endpoint, images, ages_s = free_endpoint(), 120 * seconds, []
-    with arena(endpoint, images, begin=False) as running, look(endpoint) as view:
+    came: Counter[str] = Counter()
+    seen: list[ArenaSight] = []
+    with arena(endpoint, images, begin=False) as running, counting(endpoint, came) as view:
         until(lambda: view.is_heard)
-        seen: list[ArenaSight] = []
-        view._see = lambda sight, take=view._see: (seen.append(sight) if sight else 0, take(sight))
         start(running)
-        while len(seen) < images:
-            assert view.wait(5.0) is not None
+        while came["tagmetry/lab/state"] < images and (sight := view.wait(5.0)) is not None:
+            seen.append(sight)
             ages_s.append(view.age_s)
-        assert view.refused == {}
-    assert [one.image for one in seen] == list(range(images))
+        seen += [sight for sight in [view.newest] if sight is not None]
+    came.pop("tagmetry/lab/assign")
+    assert len(came) == 3 * len(ROBOTS) + 1
+    assert set(came.values()) == {images}
     assert max(one.missing for one in seen) == 0
     last = seen[-1]
+    assert last.image == images - 1
     assert [one.name for one in last.world] == list(ROBOTS.values())
     expected = [robot_state(number, images - 1) for number in ROBOTS]
     assert [(one.x_m, one.y_m) for one in last.world] == [(e.x_m, e.y_m) for e in expected]
     assert last.held == {2}
     assert set(last.neighbours) == set(last.commanded) == set(ROBOTS)
     p50, p99 = 1000 * np.percentile(ages_s, [50, 99])
-    print(f"\n{images} images, {72 * images + images} packets; age p50 {p50:.1f} p99 {p99:.1f} ms")
+    print(f"\n{sum(came.values())} packets; {len(seen)} of {images} images were looked at")
+    print(f"age when looked at: p50 {p50:.1f} p99 {p99:.1f} ms")
 
 
 def test_a_host_that_dies_is_missed_and_its_successor_found() -> None:
@@ -93,6 +104,7 @@ def test_one_without_the_key_sees_nothing() -> None:
 def test_a_reader_that_sleeps_delays_nobody_and_fills_no_memory() -> None:
     endpoint, images = free_endpoint(), 120 * 6
     with arena(endpoint, images, begin=False) as running, program(SLOW, endpoint) as slow:
+        assert line_of(slow) == "open"
         start(running)
         assert line_of(slow) == "looks"
         slow.send_signal(signal.SIGSTOP)
