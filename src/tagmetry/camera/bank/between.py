@@ -5,8 +5,7 @@ rays alike: a blend of them may be neither. So each calibration is turned into a
 viewing rays; between neighbours every ray follows a monotone cubic (PCHIP; Fritsch and Carlson,
 1980); and the camera of the model that has these rays is fitted.
 
-A ray (x, y, z) of length one is written q = (x, y) / (1 + z), which holds beyond 90 degrees too;
-p(q) = (2 q, 1 - |q|^2) lies on it. With P the projection, A = dP / d(parameters) and B = dP / dq:
+A ray is written as q (`charts`). With P the projection, A = dP / d(parameters) and B = dP / dq:
 
     q* = sum w_k q_k          w_k: the derivative of the cubic by its k-th value
     d(parameters*) = A*^+ B* sum w_k B_k^-1 A_k d(parameters_k)
@@ -17,6 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from tagmetry.camera.bank.charts import by_chart, chart, points_on, ray_jacobian
 from tagmetry.camera.bank.parameters import parameters, pixel_grid, with_parameters
 from tagmetry.camera.model import Camera
 from tagmetry.errors import InputError
@@ -45,7 +45,7 @@ def camera_between(cameras: Sequence[Camera], settings: Array, setting: float) -
     near = _having_a_say(settings, setting)
     cameras, settings = cameras[near], settings[near]
     pixels = pixel_grid(cameras[0])
-    maps = np.stack([_chart(camera.unproject(pixels)) for camera in cameras])
+    maps = np.stack([chart(camera.unproject(pixels)) for camera in cameras])
     seen = np.asarray(np.isfinite(maps).all(axis=(0, 2)))
     _check_seen(cameras, seen)
     maps, pixels = maps[:, seen], pixels[seen]
@@ -66,7 +66,7 @@ def re_expressed(camera: Camera, like: Camera) -> Camera:
         like: Whose coefficients to stay near.
     """
     pixels = pixel_grid(camera)
-    q = _chart(camera.unproject(pixels))
+    q = chart(camera.unproject(pixels))
     seen = np.asarray(np.isfinite(q).all(axis=-1))
     _check_seen([camera], seen)
     found = _fitted(like, q[seen], pixels[seen])
@@ -125,22 +125,12 @@ def _cubic_weights(settings: Array, values: Array, setting: float) -> Array:
     return np.asarray((above - below) / (2 * step))
 
 
-def _chart(rays: Array) -> Array:
-    """Return q of unit rays."""
-    return np.asarray(rays[..., :2] / (1 + rays[..., 2:]))
-
-
-def _points(q: Array) -> Array:
-    """Return points on the rays q."""
-    return np.concatenate([2 * q, 1 - (q**2).sum(axis=-1, keepdims=True)], axis=-1)
-
-
 def _fitted(start: Camera, q: Array, pixels: Array) -> Camera:
     """Return the camera that shows the rays at these pixels best, by Levenberg and Marquardt.
 
     The damping keeps coefficients that hardly move a pixel where they are.
     """
-    points, camera, damping = _points(q), start, 1e-9
+    points, camera, damping = points_on(q), start, 1e-9
     for _ in range(_STEPS):
         jacobian, seen = _parameter_jacobian(camera, points)
         residual = (pixels - camera.project(points))[seen].ravel()
@@ -179,12 +169,12 @@ def _covariance(
         weights: d(q) / d(q_k), shape (k, n, 2).
         maps: Their q_k, shape (k, n, 2).
     """
-    jacobian, seen = _parameter_jacobian(camera, _points(q))
-    pixels_by_q = _by_chart(camera, _points(q))[seen]
+    jacobian, seen = _parameter_jacobian(camera, points_on(q))
+    pixels_by_q = by_chart(camera, points_on(q))[seen]
     solve = _pseudo_inverse(jacobian)
     covariance = np.zeros((camera.parameter_count,) * 2)
     for each, weight, own_q in zip(cameras, weights, maps, strict=True):
-        q_by_own = _ray_jacobian(each, _points(own_q))[seen]
+        q_by_own = ray_jacobian(each, points_on(own_q))[seen]
         carried = pixels_by_q @ (weight[seen][..., None] * q_by_own)
         by_own = solve @ carried.reshape(-1, camera.parameter_count)
         covariance += by_own @ np.asarray(each.covariance) @ by_own.T
@@ -196,23 +186,6 @@ def _parameter_jacobian(camera: Camera, points: Array) -> tuple[Array, BoolArray
     jacobian = camera.parameter_jacobian(points)
     seen = np.asarray(np.isfinite(jacobian).all(axis=(-1, -2)))
     return jacobian[seen].reshape(-1, camera.parameter_count), seen
-
-
-def _ray_jacobian(camera: Camera, points: Array) -> Array:
-    """Return B^-1 A: how the ray of a fixed pixel, as q, follows the parameters, but for its sign.
-
-    The sign cancels that of the fit, which moves against a ray that moved.
-    """
-    by_q = _by_chart(camera, points)
-    return np.asarray(np.linalg.solve(by_q, camera.parameter_jacobian(points)))
-
-
-def _by_chart(camera: Camera, points: Array) -> Array:
-    """Return B = d(pixel) / dq, shape (..., 2, 2)."""
-    _, by_point = camera.project_with_jacobian(points)
-    point_by_q = np.broadcast_to(np.eye(3, 2) * 2, (*points.shape[:-1], 3, 2)).copy()
-    point_by_q[..., 2, :] = -points[..., :2]
-    return np.asarray(by_point @ point_by_q)
 
 
 def _pseudo_inverse(jacobian: Array, damping: float = 0.0) -> Array:
