@@ -15,6 +15,7 @@ from numba import njit
 
 from tagmetry.camera import Camera
 from tagmetry.geometry import Array
+from tagmetry.twin.optics.fisheye_rays import bend_fisheye, fisheye_fold, unbend_fisheye
 
 _STEP = 1e-6
 _TURNS = 50
@@ -52,7 +53,7 @@ def _law(coefficients: tuple[float, ...], fisheye: bool) -> tuple[Array, float]:
     """Return all 14 coefficients, and where the image folds: radius squared, or angle squared."""
     k = np.concatenate([coefficients, np.zeros(14 - len(coefficients))])
     if fisheye:
-        return k, _fisheye_fold(k) ** 2
+        return k, fisheye_fold(k) ** 2
     return k, _fold(k) if k.any() else np.inf
 
 
@@ -64,7 +65,7 @@ def _bent(points: Array, k: Array, fold: float, fisheye: bool) -> Array:
         x, y, z = points[i]
         if fisheye:
             if np.arctan2(np.sqrt(x * x + y * y), z) ** 2 < fold:
-                bent[i] = _bend_fisheye(x, y, z, k)
+                bent[i] = bend_fisheye(x, y, z, k)
         elif z > 0 and (x * x + y * y) / (z * z) < fold:
             bent[i] = _bend(x / z, y / z, k)
     return bent
@@ -76,7 +77,7 @@ def _straightened(bent_x: Array, bent_y: Array, k: Array, fold: float, fisheye: 
     rays = np.full((len(bent_x), 3), np.nan)
     if fisheye:
         for i in range(len(bent_x)):
-            rays[i] = _unbend_fisheye(bent_x[i], bent_y[i], k)
+            rays[i] = unbend_fisheye(bent_x[i], bent_y[i], k)
         return rays
     if not k.any():
         rays[:, 0], rays[:, 1], rays[:, 2] = bent_x, bent_y, 1.0
@@ -177,53 +178,3 @@ def _fold(k: Array) -> float:
                 break
             before = reached
     return least
-
-
-@njit(cache=True, nogil=True)
-def _bend_fisheye(x: float, y: float, z: float, k: Array) -> tuple[float, float]:
-    across = np.sqrt(x * x + y * y)
-    if across == 0.0:
-        return (0.0, 0.0) if z > 0 else (np.nan, np.nan)
-    radius = _fisheye_radius(np.arctan2(across, z), k)
-    return radius * x / across, radius * y / across
-
-
-@njit(cache=True, nogil=True)
-def _fisheye_radius(angle: float, k: Array) -> float:
-    q = angle * angle
-    return float(angle * (1.0 + k[0] * q + k[1] * q**2 + k[2] * q**3 + k[3] * q**4))
-
-
-@njit(cache=True, nogil=True)
-def _fisheye_fold(k: Array) -> float:
-    """Return the least angle at which the image stands still, at most pi, by walking outward."""
-    before = 0.0
-    for step in range(1, 1025):
-        angle = np.pi * step / 1024.0
-        reached = _fisheye_radius(angle, k)
-        if reached <= before:
-            return float(angle)
-        before = reached
-    return np.pi + 1e-9
-
-
-@njit(cache=True, nogil=True)
-def _unbend_fisheye(bent_x: float, bent_y: float, k: Array) -> tuple[float, float, float]:
-    """Search outward for the first angle that reaches the radius, then halve."""
-    radius = np.sqrt(bent_x * bent_x + bent_y * bent_y)
-    if radius == 0.0:
-        return 0.0, 0.0, 1.0
-    low, high, step = 0.0, 0.0, np.pi / 128.0
-    while _fisheye_radius(high, k) < radius:
-        low, high = high, high + step
-        if high > np.pi or _fisheye_radius(high, k) < _fisheye_radius(low, k):
-            return np.nan, np.nan, np.nan
-    for _ in range(60):
-        middle = (low + high) / 2.0
-        if _fisheye_radius(middle, k) < radius:
-            low = middle
-        else:
-            high = middle
-    angle = (low + high) / 2.0
-    aside = np.sin(angle) / radius
-    return aside * bent_x, aside * bent_y, np.cos(angle)
