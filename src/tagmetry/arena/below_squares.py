@@ -9,10 +9,9 @@ so that with (a, b) = R(heading) (forward, left) a robot moves with its marker b
 
 import numpy as np
 
-from tagmetry.arena.compiled import carried, wrapped_rad
+from tagmetry.arena.compiled import carried, kernel, wrapped_rad
 from tagmetry.arena.square_fit import FREEDOM
 from tagmetry.geometry import Array
-from tagmetry.localize.joint.small import kernel
 
 _POOR_CHI2 = 20.5  # one good fit of a thousand is worse
 

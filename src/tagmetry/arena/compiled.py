@@ -1,9 +1,13 @@
 """Small steps that compiled loops over robots share: angles, and matrices of three rows."""
 
 import numpy as np
+from numba import njit
 
 from tagmetry.geometry import Array
-from tagmetry.localize.joint.small import backward, cholesky, forward, kernel
+from tagmetry.localize.joint.small import backward, cholesky, forward
+
+# too short to let other threads have the interpreter: it would have to be waited for
+kernel = njit(cache=True, error_model="numpy")
 
 
 @kernel

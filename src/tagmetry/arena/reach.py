@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from tagmetry.arena.compiled import wrapped_rad
+from tagmetry.arena.compiled import kernel, wrapped_rad
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import IntArray
-from tagmetry.localize.joint.small import kernel
 
 _ROUNDING_RAD = 1e-12
 

@@ -10,9 +10,9 @@ All that is asked for follows from M^T M:
 
 import numpy as np
 
-from tagmetry.arena.compiled import dot, inverted, times
+from tagmetry.arena.compiled import dot, inverted, kernel, times
 from tagmetry.geometry import Array
-from tagmetry.localize.joint.small import add_square, cholesky, forward, kernel
+from tagmetry.localize.joint.small import add_square, cholesky, forward
 
 _OFF, _PLACE, _HEIGHT, _CAMERA, _COLUMNS = 0, 1, 4, 5, 11  # where columns begin, and their number
 _FORWARD = np.array([0.5, 0.5, -0.5, -0.5])  # of the corners, in sides

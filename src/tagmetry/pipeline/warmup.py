@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tagmetry.arena import Arena, Mount, OverheadView, Robot, Roster
+from tagmetry.arena import Arena, Mount, Neighbourhood, OverheadView, Robot, Roster
 from tagmetry.calibrate.targets import find_board
 from tagmetry.camera import Camera
 from tagmetry.camera.brown_lens import BrownLens
@@ -104,13 +104,13 @@ def _track() -> None:
 
 
 def _follow() -> None:
-    """Follow a robot that is seen twice."""
+    """Follow a robot that is seen twice, and tell it whom it senses."""
     robot = Robot(1, "robot", _SIZE_M, _FAMILIES[0], 3, _SIZE_M, Mount(_SIZE_M))
     above = RigidTransform.from_components([0.0, 0.0, 1.0], _FACING)
     arena = Arena(Roster((robot,)), OverheadView(_CAMERA, above, np.zeros((6, 6))))
     found = Detector(_FAMILIES).detect(_picture(), _CAMERA)
     for k in range(2):
-        arena.take(found, k / 30)
+        Neighbourhood().tell(arena.take(found, k / 30).world)
 
 
 def _find_board() -> None:

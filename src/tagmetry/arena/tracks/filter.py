@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from tagmetry.arena.compiled import carried, dot, inverted, times, wrapped_rad
+from tagmetry.arena.compiled import carried, dot, inverted, kernel, times, wrapped_rad
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import IntArray
-from tagmetry.localize.joint.small import kernel
 
 
 @kernel
