@@ -50,6 +50,7 @@ def test_one_common_pose_has_no_relative_error(ways, capsys):
         (["--picture", "a.svg"], "the picture is a PNG"),
         (["--align", "scale"], "'scale' is not one of 'none', 'path', 'rig'"),
         (["--gap", "-1"], "--gap"),
+        (["--gap", "1", "--step", "9"], "no two poses are 9 s apart; they are 5 s from the first"),
     ],
 )
 def test_refuses(ways, options, why, capsys):

@@ -303,3 +303,8 @@ def test_the_file_of_a_scene_is_a_source(tmp_path: Path, capsys: pytest.CaptureF
     )
     assert run(["detect", f"twin:{path}", "--json"]) == 0
     assert [[one["id"] for one in line["markers"]] for line in lines_of(capsys)] == [[7], [7]]
+
+
+def test_no_limit_is_too_large(small_picture: Path, capsys: pytest.CaptureFixture) -> None:
+    assert run(["detect", str(small_picture), f"--limit={10**20}"]) == 0
+    assert "[0] 320x240" in capsys.readouterr().out

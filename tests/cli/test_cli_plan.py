@@ -98,6 +98,8 @@ def test_a_camera_without_covariance_and_a_marker_too_far_away(
         (("--size", "12cm", "--distance", "2", "--want", "1um"), "expected a length above 0"),
         (("--size", "12cm", "--want", "0.001mm"), "no distance gives 0.001 mm"),
         (("--size", "12cm", "--distance", "1cm"), "the image does not show all of a marker"),
+        (("--size", "12cm", "--distance", "1e300"), "expected a length above 0"),
+        (("--size", "12cm", "--distance", "2", "--noise", "1e300"), "noise_grey must be at most"),
         (("--size", "12cm", "--distance", "2", "--tilt", "90"), "tilt_deg must be from 0 to 85"),
         (("--size", "12cm", "--distance", "2", "--at", "middle"), "expected pixels like 320,100"),
         (("--size", "12cm", "--distance", "2", "--contrast", "300"), "0 < black < white"),

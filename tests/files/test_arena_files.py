@@ -120,6 +120,7 @@ def test_a_board_may_lie_on_the_floor(tmp_path: Path) -> None:
     ("old", "new", "match"),
     [
         ("tagmetry: arena", "tagmetry: map", "expected an arena"),
+        ("size_m: 0.2}", "size_m: 1e300}", "less than or equal to 1000000000, found 1e.300"),
         ("version: 1", "version: 9", "expected version 1 of an arena, found 9"),
         ("- {id: 100}", "", "origin: 100 is no floor marker; there are 101"),
         ("toward: 101", "toward: 55", "toward: 55 is no floor marker; there are 100, 101"),

@@ -39,6 +39,11 @@ from tagmetry.files import save_camera
         ("camera_name: 00314159", "tagmetry: {covariance: [[1]]}", r"shape \(9, 9\)"),
         ("camera_name: 00314159", "tagmetry: {covariance: [[-1]]}", "variances of at least 0"),
         ("camera_name: 00314159", "tagmetry: {covariance: [[1, 2], [3, 1]]}", "symmetric"),
+        (
+            "camera_name: 00314159",
+            "tagmetry: {covariance: [[1, 2], [2, 1]]}",
+            "at most the product",
+        ),
         ("camera_name: 00314159", "tagmetry: 7", "tagmetry: expected keys with values, found 7"),
     ],
 )

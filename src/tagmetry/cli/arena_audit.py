@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tagmetry.cli.arena_options import ArenaFile, SourceName
-from tagmetry.cli.options import CameraFile
+from tagmetry.cli.options import CameraFile, first
 
 if TYPE_CHECKING:
     from tagmetry.arena import AuditGrid, ErrorMap, GridPlace
@@ -37,8 +37,6 @@ def audit(  # noqa: PLR0913 (each argument is an option)
     picture: Annotated[Path | None, typer.Option(help="The error map: .png.")] = None,
 ) -> None:
     """Measure the error map of the floor, as the published figure 9 of the swarm's testbed."""
-    from itertools import islice
-
     from tagmetry.arena import audit as audited
     from tagmetry.arena.averaged import averaged
     from tagmetry.cli.arena_options import opened, setup_and_world
@@ -53,7 +51,7 @@ def audit(  # noqa: PLR0913 (each argument is an option)
     tell_compiling()
     with opened(source, world.view.camera) as taken:
         seen = averaged(
-            [detector.detect(one.pixels, world.view.camera) for one in islice(taken, images)]
+            [detector.detect(one.pixels, world.view.camera) for one in first(taken, images)]
         )
     found = audited(seen, markers, world.view, place)
     _write(found, csv, picture, setup.name)

@@ -23,7 +23,8 @@ def mount(
         str | None, typer.Option(help="Source of a straight drive ahead, for the marker's turn.")
     ] = None,
     size_sd: Annotated[
-        float, typer.Option(min=0.0, help="Deviation of the marker's size, as a share of it.")
+        float,
+        typer.Option(min=0.0, max=1.0, help="Deviation of the marker's size, as a share of it."),
     ] = 0.002,
     camera: CameraFile = None,
 ) -> None:

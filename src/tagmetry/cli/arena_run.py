@@ -2,14 +2,13 @@
 
 from collections.abc import Callable, Generator
 from contextlib import ExitStack, closing
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tagmetry.cli.arena_options import ArenaFile, SourceName
-from tagmetry.cli.options import CameraFile
+from tagmetry.cli.options import CameraFile, first
 
 if TYPE_CHECKING:
     from tagmetry.arena.controllers import Controller
@@ -84,7 +83,7 @@ def run(  # noqa: PLR0913 (each argument is an option)
         takers = _talkers(stack, setup, link, recorder, poses=poses)
         takers += bridge_takers(bridge, setup, task)
         takers += _writers(stack, out, recorder, quiet=quiet, live=images.is_live)
-        results = closing(run_arena(islice(images, limit), task, takers, latency))
+        results = closing(run_arena(first(images, limit), task, takers, latency))
         _follow(stack.enter_context(results))
     _sum_up(latency)
 

@@ -44,7 +44,7 @@ def stability(  # noqa: PLR0913 (each argument is an option)
         float | None, typer.Option(help="Of the robots; by default the arena's largest, or 160.")
     ] = None,
     place_sd_mm: Annotated[
-        float, typer.Option(min=0.0, help="Noise of a robot's place from image to image.")
+        float, typer.Option(min=0.0, max=1e6, help="Noise of a robot's place from image to image.")
     ] = 0.2,
     picture: Annotated[
         Path | None, typer.Option(help="Distances and margins against the delay: .png.")

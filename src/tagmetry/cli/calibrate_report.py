@@ -1,9 +1,14 @@
 """A calibration as lines of text, and as a table for JSON."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from tagmetry.pipeline.calibration import CalibrationRun, RefusedError, advice_line
 from tagmetry.record.calibration_report.tables import parameter_rows, short_name, view_names
+
+if TYPE_CHECKING:
+    from tagmetry.calibrate.view import RejectedView
 
 _MOST_REJECTED = 12
 
@@ -36,9 +41,14 @@ def rejected_lines(rejected: "tuple[object, ...]") -> list[str]:
 
     views = [one for one in rejected if isinstance(one, RejectedView)]
     if len(views) <= _MOST_REJECTED:
-        return [f"  not used: {short_name(v.source) or 'a picture'}: {v.reason}" for v in views]
+        return [f"  not used: {_named(one)}" for one in views]
     reasons = Counter(view.reason for view in views).most_common(_MOST_REJECTED)
     return [f"  not used: {count} pictures: {reason}" for reason, count in reasons]
+
+
+def _named(view: "RejectedView") -> str:
+    """Return the reason after the picture's name, where it is not in the reason."""
+    return f"{short_name(view.source)}: {view.reason}" if view.source else view.reason
 
 
 def run_table(run: CalibrationRun) -> dict[str, object]:
@@ -81,7 +91,8 @@ def _view_lines(run: CalibrationRun) -> list[str]:
     for name, kept, rms, out in zip(
         view_names(solved), solved.kept, solved.view_rms_px, held, strict=True
     ):
-        lost = f" ({int((~kept).sum())} corners dropped)" if not kept.all() else ""
+        count = int((~kept).sum())
+        lost = f" ({count} corner{'' if count == 1 else 's'} dropped)" if count else ""
         lines.append(f"{name[-28:]:<28} {int(kept.sum()):>7} {rms:>9.3f} {_px(out):>9}{lost}")
     total = _px(left_out.rms_px) if left_out is not None else _px(np.nan)
     count = sum(int(kept.sum()) for kept in solved.kept)

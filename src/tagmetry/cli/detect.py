@@ -3,13 +3,12 @@
 from collections.abc import Generator
 from contextlib import ExitStack, closing
 from dataclasses import replace
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tagmetry.cli.options import CameraFile, Families, Inverted, Json, Size, measurement
+from tagmetry.cli.options import CameraFile, Families, Inverted, Json, Size, first, measurement
 
 if TYPE_CHECKING:
     from tagmetry.camera import Image, Source
@@ -90,7 +89,7 @@ def detect(  # noqa: PLR0913 (each argument is an option)
     with ExitStack() as stack:
         takers = _Takers(stack, _results_writer(out, marker), overlay, cube, task)
         images = stack.enter_context(closing(_images(sources, task)))
-        for image in islice(images, limit):
+        for image in first(images, limit):
             with held_back():
                 sights.take(image)
                 result, rejections = _measured(task, image, explain)

@@ -1,17 +1,17 @@
 """What `tagmetry lens scan` and `track` do: open the camera and its lens, and tell every image."""
 
-from collections.abc import Iterator
 from contextlib import closing
 from dataclasses import dataclass
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
 
+from tagmetry.cli.options import first
+
 if TYPE_CHECKING:
     from tagmetry.lens import ZoomLens
-    from tagmetry.pipeline.lens import LensStep, LensTask
+    from tagmetry.pipeline.lens import LensTask
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def run(wanted: Wanted, out: Path | None, *, json_: bool) -> None:
         task = _task(known.lens(source.controls.available), wanted)
         _tell_gaps(task)
         with closing(measure_marker(source, task, lag=known.lag, tracks=wanted.tracks)) as steps:
-            told(_first(steps, wanted.images), out, json_=json_)
+            told(first(steps, wanted.images), out, json_=json_)
 
 
 def _task(lens: "ZoomLens", wanted: Wanted) -> "LensTask":
@@ -73,7 +73,3 @@ def _tell_gaps(task: "LensTask") -> None:
             f"it is interpolated there{gap_doubt(gap)}",
             err=True,
         )
-
-
-def _first(steps: "Iterator[LensStep]", count: int | None) -> "Iterator[LensStep]":
-    return islice(steps, count)

@@ -3,14 +3,13 @@
 from collections.abc import Generator
 from contextlib import ExitStack, closing
 from dataclasses import replace
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tagmetry.cli.deviations import decimals_of
-from tagmetry.cli.options import CameraFile, Inverted, Json, Size, check_png
+from tagmetry.cli.options import CameraFile, Inverted, Json, Size, check_png, first
 
 if TYPE_CHECKING:
     from tagmetry.camera import Image
@@ -82,7 +81,7 @@ def locate(  # noqa: PLR0913 (each argument is an option)
     with ExitStack() as stack:
         writer = stack.enter_context(open_location_writer(out)) if out is not None else None
         images = stack.enter_context(closing(_images(sources, task)))
-        for image in islice(images, limit):
+        for image in first(images, limit):
             with held_back():
                 found = task.locate(image)
                 way.append(found)

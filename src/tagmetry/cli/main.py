@@ -6,6 +6,7 @@ Exit codes: 0 done, 1 a fault of the program, 2 an input that cannot be used, 13
 import io
 import os
 import sys
+import warnings
 
 import typer
 from typer.exceptions import TyperException
@@ -74,6 +75,7 @@ def _root(
 
 def main() -> None:
     """Run the command line and exit with its code."""
+    warnings.showwarning = _warn
     if isinstance(sys.stdout, io.TextIOWrapper):  # file names and units may not fit its encoding
         sys.stdout.reconfigure(errors="backslashreplace")
     sys.exit(run(sys.argv[1:]))
@@ -98,6 +100,11 @@ def run(arguments: list[str]) -> int:
         sys.stderr.write("tagmetry: interrupted\n")
         return 130
     return 0
+
+
+def _warn(message: Warning | str, *_: object, **__: object) -> None:
+    """Say a warning as any other word to the person: without the file and line that had it."""
+    sys.stderr.write(f"tagmetry: {' '.join(str(message).split())}\n")
 
 
 def _invoke(arguments: list[str]) -> None:

@@ -1,7 +1,10 @@
 """Options that several subcommands share."""
 
+import sys
+from collections.abc import Iterable, Iterator
+from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
@@ -23,6 +26,14 @@ CameraFile = Annotated[
 ]
 Inverted = Annotated[bool, typer.Option("--inverted", help="Find white on black markers too.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
+
+
+Item = TypeVar("Item")
+
+
+def first(items: Iterable[Item], count: int | None) -> Iterator[Item]:
+    """Give so many items, all where None; no count is too large."""
+    return islice(items, count if count is None else min(count, sys.maxsize))
 
 
 def measurement(

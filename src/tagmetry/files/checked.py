@@ -1,12 +1,14 @@
 """What came out of a file, checked against what was expected; a mistake becomes one line."""
 
-from typing import Any, TypeVar
+from typing import Annotated, Any, TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
 from tagmetry.errors import InputError
 from tagmetry.files.plain import shortened
+
+Metres = Annotated[float, Field(ge=-1e9, le=1e9)]  # what is farther is a slip of the unit
 
 
 class FileModel(BaseModel):

@@ -1,6 +1,5 @@
 """Lengths as people type them: metres, or a number with a unit (`120mm`, `12cm`, `4in`)."""
 
-import math
 import re
 
 from tagmetry.errors import InputError
@@ -13,6 +12,7 @@ _LENGTH = re.compile(
 _ID = re.compile(r"\d{1,9}", re.ASCII)
 _EXPECTED = "expected a length above 0 like 0.12 (metres), 120mm, 12cm or 4in"
 _LONGEST_SHOWN = 40
+_SHORTEST_M, _LONGEST_M = 1e-9, 1e9  # beyond, a unit or a finger slipped
 
 
 def parse_length_m(text: str) -> float:
@@ -22,13 +22,13 @@ def parse_length_m(text: str) -> float:
         text: A number in metres, or one followed by mm, cm, m or in.
 
     Raises:
-        InputError: The text is no length, or one that is not positive and finite.
+        InputError: The text is no length, or one that is not positive, or beyond all sense.
     """
     match = _LENGTH.fullmatch(text.strip())
     if match is None:
         raise InputError(f"{_EXPECTED}, found {_shown(text)}")
     length_m = float(match["number"]) * _METRES[(match["unit"] or "").lower()]
-    if not (math.isfinite(length_m) and length_m > 0):
+    if not _SHORTEST_M <= length_m <= _LONGEST_M:
         raise InputError(f"{_EXPECTED}, found {_shown(text)}")
     return length_m
 

@@ -1,6 +1,7 @@
 """A marker map drawn from above and in three dimensions, with the camera's way through it."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 _LEAST_M = 0.3  # drawn around a small map
 _DEVIATIONS = 2.0  # drawn of every marker's place
 _MOST_NAMED = 60
+_SIGHT_M, _MOST_SIGHTS = 0.15, 30
+_BESIDE: Any = {"xytext": (4, 4), "textcoords": "offset points"}
 
 
 def map_picture(marker_map: MarkerMap, Ts_world_camera: Sequence[RigidTransform] = ()) -> bytes:
@@ -25,7 +28,7 @@ def map_picture(marker_map: MarkerMap, Ts_world_camera: Sequence[RigidTransform]
     Args:
         marker_map: Markers with a line out of their faces, and ellipses of two deviations of their
             places where those are uncertain.
-        Ts_world_camera: Where a camera was, in order; the first is marked.
+        Ts_world_camera: Where a camera was, in order; lines show where it looks.
 
     Raises:
         MissingExtraError: Matplotlib is not installed.
@@ -35,13 +38,33 @@ def map_picture(marker_map: MarkerMap, Ts_world_camera: Sequence[RigidTransform]
     except ModuleNotFoundError as error:
         raise MissingExtraError("a drawing of a marker map", "report") from error
     figure = Figure(figsize=(13.0, 6.0), layout="constrained", facecolor="white")
-    way_m = np.array([T.translation for T in Ts_world_camera]).reshape(-1, 3)
-    _from_above(figure.add_subplot(1, 2, 1), marker_map, way_m)
-    _in_space(figure, marker_map, way_m)
+    way = _way(Ts_world_camera)
+    _from_above(figure.add_subplot(1, 2, 1), marker_map, way)
+    _in_space(figure, marker_map, way)
     return png(figure)
 
 
-def _from_above(axes: "Axes", marker_map: MarkerMap, way_m: Array) -> None:
+@dataclass(frozen=True, eq=False)
+class _Way:
+    """Where a camera was, and the ends of short lines in the directions that it looked, (n, 3)."""
+
+    places_m: Array
+    ends_m: Array
+
+    @property
+    def sights_m(self) -> Array:
+        """The lines of at most so many places, spread over the way, shape (k, 2, 3)."""
+        chosen = np.unique(np.linspace(0, len(self.places_m) - 1, _MOST_SIGHTS).round().astype(int))
+        return np.stack([self.places_m, self.ends_m], axis=1)[chosen if len(self.places_m) else []]
+
+
+def _way(Ts_world_camera: Sequence[RigidTransform]) -> _Way:
+    places_m = np.array([T.translation for T in Ts_world_camera]).reshape(-1, 3)
+    sights = np.array([T.rotation.as_matrix()[:, 2] for T in Ts_world_camera]).reshape(-1, 3)
+    return _Way(places_m, places_m + _SIGHT_M * sights)
+
+
+def _from_above(axes: "Axes", marker_map: MarkerMap, way: _Way) -> None:
     for marker in marker_map.markers:
         x, y = np.vstack([marker.p_world, marker.p_world[:1]])[:, :2].T
         axes.plot(x, y, color=BLUE, linewidth=2)
@@ -51,26 +74,33 @@ def _from_above(axes: "Axes", marker_map: MarkerMap, way_m: Array) -> None:
         if not marker.is_exact:
             axes.plot(*_ellipse_m(center[:2], marker.covariance[:2, :2]).T, color=GOLD)
         if len(marker_map.markers) <= _MOST_NAMED:
-            axes.annotate(str(marker.id), (tip[0], tip[1]), fontsize=8, ha="center", va="center")
-    if len(way_m):
-        axes.plot(*way_m[:, :2].T, ".-", color=RED, markersize=3, linewidth=0.8)
-        axes.plot(*way_m[0, :2], "o", color=RED)
+            axes.annotate(str(marker.id), (tip[0], tip[1]), fontsize=9, **_BESIDE)
+    if len(way.places_m):
+        axes.plot(*way.places_m[:, :2].T, ".-", color=RED, markersize=3, linewidth=0.8)
+        axes.plot(*way.places_m[0, :2], "o", color=RED)
+        axes.annotate(
+            "camera", (way.places_m[0, 0], way.places_m[0, 1]), fontsize=9, color=RED, **_BESIDE
+        )
+    for sight in way.sights_m:
+        axes.plot(*sight[:, :2].T, color=RED, linewidth=1.5)
     axes.set(xlabel="x, m", ylabel="y, m", title=f"{marker_map.name}, from above")
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.1)
 
 
-def _in_space(figure: "Figure", marker_map: MarkerMap, way_m: Array) -> None:
+def _in_space(figure: "Figure", marker_map: MarkerMap, way: _Way) -> None:
     axes: Any = figure.add_subplot(1, 2, 2, projection="3d")
     for marker in marker_map.markers:
         axes.plot(*np.vstack([marker.p_world, marker.p_world[:1]]).T, color=BLUE, linewidth=1.5)
         top_left = np.vstack([marker.p_world[0], marker.T_world_marker.translation])
         axes.plot(*top_left.T, color=GOLD, linewidth=1)
-    if len(way_m):
-        axes.plot(*way_m.T, color=RED, linewidth=1)
-        axes.scatter(*way_m[:1].T, color=RED)
-    _same_scale(axes, np.vstack([*(one.p_world for one in marker_map.markers), way_m]))
-    axes.set(xlabel="x, m", ylabel="y, m", zlabel="z, m", title="a line to each one's top left")
+    if len(way.places_m):
+        axes.plot(*way.places_m.T, color=RED, linewidth=1)
+        axes.scatter(*way.places_m[:1].T, color=RED)
+    for sight in way.sights_m:
+        axes.plot(*sight.T, color=RED, linewidth=1.5)
+    _same_scale(axes, np.vstack([*(one.p_world for one in marker_map.markers), way.places_m]))
+    axes.set(xlabel="x, m", ylabel="y, m", title="a line to each marker's top left; z up, m")
 
 
 def _same_scale(axes: Any, points_m: Array) -> None:  # noqa: ANN401 (its 3-D axes have no types)

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tagmetry.errors import InputError
 from tagmetry.record.mcap import (
     DamagedRecordingWarning,
     Entry,
@@ -155,3 +156,9 @@ def killed(runs: subprocess.Popen[str], path: Path, after_s: float) -> float:
         sequences = [image.sequence for image in Replay(path)]
     assert sequences == list(range(len(sequences)))
     return killed_s - max((entry.stamped_ns for entry in entries), default=0) / 1e9
+
+
+def test_a_recording_without_an_image_is_no_source_of_images(tmp_path: Path) -> None:
+    whole_file(tmp_path / "run.mcap")
+    with pytest.raises(InputError, match=r"run.mcap: there is no whole image in this recording"):
+        list(Replay(tmp_path / "run.mcap"))

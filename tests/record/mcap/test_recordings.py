@@ -151,8 +151,11 @@ def test_an_image_that_is_none_is_passed_over(tmp_path: Path) -> None:
         ]
         writer.write([Entry(IMAGES, 1, 1, text) for text in texts])
         writer.finish()
-    with pytest.warns(DamagedRecordingWarning, match="passed over an image"):
-        assert list(Replay(path)) == []
+    with (
+        pytest.warns(DamagedRecordingWarning, match="passed over an image"),
+        pytest.raises(InputError, match="no whole image"),
+    ):
+        list(Replay(path))
 
 
 @pytest.fixture

@@ -4,18 +4,18 @@ from typing import Literal
 
 from pydantic import Field
 
-from tagmetry.files.checked import OwnFileModel
+from tagmetry.files.checked import Metres, OwnFileModel
 
 
 class MarkerTable(OwnFileModel):
     """A marker on a robot: how it is mounted."""
 
     id: int
-    size_m: float | None = None
-    height_m: float
-    height_sd_m: float = 0.0
-    forward_m: float = 0.0
-    left_m: float = 0.0
+    size_m: Metres | None = None
+    height_m: Metres
+    height_sd_m: Metres = 0.0
+    forward_m: Metres = 0.0
+    left_m: Metres = 0.0
     turn_deg: float = 0.0
     family: str | None = None
 
@@ -23,17 +23,17 @@ class MarkerTable(OwnFileModel):
 class SensorTable(OwnFileModel):
     """A sensor for neighbours."""
 
-    range_m: float
+    range_m: Metres
     view_deg: float = 360.0
     view_center_deg: float = 0.0
     line_of_sight: bool = False
-    range_sd_m: float = 0.0
+    range_sd_m: Metres = 0.0
     range_sd_share: float = 0.0
     bearing_sd_deg: float = 0.0
     heading_sd_deg: float = 0.0
     drop_probability: float = 0.0
     delay_s: float = 0.0
-    range_step_m: float = 0.0
+    range_step_m: Metres = 0.0
     angle_step_deg: float = 0.0
     most: int | None = None
 
@@ -41,8 +41,8 @@ class SensorTable(OwnFileModel):
 class StartTable(OwnFileModel):
     """Where a simulated robot starts."""
 
-    x_m: float
-    y_m: float
+    x_m: Metres
+    y_m: Metres
     heading_deg: float = 0.0
 
 
@@ -51,7 +51,7 @@ class RobotTable(OwnFileModel):
 
     id: int
     name: str | None = None
-    diameter_m: float | None = None
+    diameter_m: Metres | None = None
     marker: MarkerTable
     sensor: SensorTable | None = None
     key: str | None = None
@@ -63,10 +63,10 @@ class FloorMarkerTable(OwnFileModel):
     """A marker on the floor; without a place it is found by calibration."""
 
     id: int
-    size_m: float | None = None
+    size_m: Metres | None = None
     family: str | None = None
-    x_m: float | None = None
-    y_m: float | None = None
+    x_m: Metres | None = None
+    y_m: Metres | None = None
     turn_deg: float = 0.0
 
 
@@ -77,24 +77,24 @@ class FloorTable(OwnFileModel):
     board: str | None = None
     origin: int | None = None
     toward: int | None = None
-    size_m: float | None = None
+    size_m: Metres | None = None
 
 
 class ObstacleTable(OwnFileModel):
     """A virtual obstacle: a disc (center_m and radius_m) or a wall (from_m and to_m)."""
 
     name: str | None = None
-    center_m: list[float] | None = Field(None, min_length=2, max_length=2)
-    radius_m: float | None = None
-    from_m: list[float] | None = Field(None, min_length=2, max_length=2)
-    to_m: list[float] | None = Field(None, min_length=2, max_length=2)
+    center_m: list[Metres] | None = Field(None, min_length=2, max_length=2)
+    radius_m: Metres | None = None
+    from_m: list[Metres] | None = Field(None, min_length=2, max_length=2)
+    to_m: list[Metres] | None = Field(None, min_length=2, max_length=2)
 
 
 class SafetyTable(OwnFileModel):
     """When robots are stopped."""
 
     unseen_s: float = 0.5
-    margin_m: float = 0.0
+    margin_m: Metres = 0.0
 
 
 class MotionTable(OwnFileModel):
@@ -102,7 +102,7 @@ class MotionTable(OwnFileModel):
 
     acceleration_mps2: float = 0.5
     turning_radps2: float = 4.0
-    slip_m: float = 0.005
+    slip_m: Metres = 0.005
 
 
 class ZenohTable(OwnFileModel):
@@ -123,14 +123,14 @@ class ArenaTable(OwnFileModel):
     camera: str | None = None
     world: str | None = None
     family: str = "tag36h11"
-    marker_size_m: float | None = None
-    diameter_m: float | None = None
+    marker_size_m: Metres | None = None
+    diameter_m: Metres | None = None
     floor: FloorTable
     robots: list[RobotTable]
     sensor: SensorTable | None = None
     seed: int = 0
     obstacles: list[ObstacleTable] = Field(default_factory=list)
-    fence_m: list[list[float]] | None = None
+    fence_m: list[list[Metres]] | None = None
     safety: SafetyTable = Field(default_factory=SafetyTable)
     motion: MotionTable = Field(default_factory=MotionTable)
     zenoh: ZenohTable | None = None

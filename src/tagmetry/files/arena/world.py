@@ -11,7 +11,7 @@ from tagmetry.arena import FloorCorners, OverheadView
 from tagmetry.camera import Camera
 from tagmetry.errors import InputError
 from tagmetry.files.atomic import write_atomically
-from tagmetry.files.checked import OwnFileModel, checked
+from tagmetry.files.checked import Metres, OwnFileModel, checked
 from tagmetry.files.maps.places import pose_of, quaternion_xyzw
 from tagmetry.files.maps.section import covariance_array
 from tagmetry.files.tables import Table, load_yaml
@@ -40,7 +40,7 @@ class ArenaWorld:
 
 
 class _Pose(OwnFileModel):
-    translation_m: list[float] = Field(min_length=3, max_length=3)
+    translation_m: list[Metres] = Field(min_length=3, max_length=3)
     rotation_xyzw: list[float] = Field(min_length=4, max_length=4)
     covariance: list[list[float]]
 
@@ -48,7 +48,7 @@ class _Pose(OwnFileModel):
 class _Marker(OwnFileModel):
     family: str
     id: int
-    size_m: float
+    size_m: Metres
     pose: _Pose
     corners_px: list[list[float]] | None = None
     deviation_px: float | None = Field(None, gt=0)

@@ -10,6 +10,8 @@ from tagmetry.files.checked import OwnFileModel
 from tagmetry.files.tables import Table
 from tagmetry.geometry.arrays import Array
 
+_ROUNDING = 1e-6
+
 
 class Section(OwnFileModel):
     """What is known of a camera beyond its intrinsics; each key may be missing.
@@ -80,4 +82,15 @@ def _covariance(rows: list[list[float]]) -> Array:
         raise InputError(
             "tagmetry.covariance: expected a symmetric matrix with variances of at least 0"
         )
+    _check_correlations(covariance)
     return covariance
+
+
+def _check_correlations(covariance: Array) -> None:
+    """Refuse numbers that vary together by more than each of them varies."""
+    deviations = np.sqrt(np.diag(covariance))
+    if (np.abs(covariance) > (1 + _ROUNDING) * np.outer(deviations, deviations)).any():
+        raise InputError(
+            "tagmetry.covariance: expected covariances of at most the product of both standard "
+            "deviations"
+        )

@@ -109,6 +109,11 @@ def _steps(times_s: Array, step_s: float) -> tuple[IntArray, IntArray]:
         return np.arange(len(times_s) - 1), np.arange(1, len(times_s))
     last = np.searchsorted(times_s, times_s + step_s * (1 - 1e-9))
     ends = last < len(times_s)
+    if not ends.any():
+        raise InputError(
+            f"no two poses are {step_s:g} s apart; they are {times_s[-1] - times_s[0]:g} s from "
+            "the first to the last: take a shorter step_s"
+        )
     return np.flatnonzero(ends), last[ends]
 
 

@@ -14,6 +14,7 @@ from tagmetry.geometry import Array, RigidTransform
 from tagmetry.markers import MarkerFamily, family, marker_corners_m
 
 _MIDDLE_GREY = 115.0
+_MOST = 1e6  # of any noise, blur, exposure and speed that is worth a plan
 _ROUNDING_GREY = 1 / np.sqrt(12)
 
 
@@ -170,3 +171,5 @@ def _check(name: str, value: float, least: float | None = None) -> None:
         raise InputError(f"{name} must be positive, got {value}")
     if least is not None and not (np.isfinite(value) and value >= least):
         raise InputError(f"{name} must be at least {least:g}, got {value}")
+    if value > _MOST:
+        raise InputError(f"{name} must be at most {_MOST:g}, got {value}")

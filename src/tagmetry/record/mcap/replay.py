@@ -45,16 +45,26 @@ class Replay(Closing):
         return None
 
     def __iter__(self) -> Iterator[Image]:
-        """Give the images from the beginning."""
-        for entry in read_entries(self._path, IMAGES):
+        """Give the images from the beginning.
+
+        Raises:
+            InputError: The recording has none.
+        """
+        count = 0
+        for image in self._whole_images():
             if self._is_closed:
                 return
+            yield checked_fit(image)
+            count += 1
+        if not count:
+            raise InputError(f"{self.name}: there is no whole image in this recording")
+
+    def _whole_images(self) -> Iterator[Image]:
+        for entry in read_entries(self._path, IMAGES):
             try:
-                image = replace(parse_image(entry.content), camera=self._camera)
+                yield replace(parse_image(entry.content), camera=self._camera)
             except InputError as error:
                 warn_of_damage(f"{self.name}: passed over an image: {error}")
-                continue
-            yield checked_fit(image)
 
     def close(self) -> None:
         """End every iteration before its next image."""

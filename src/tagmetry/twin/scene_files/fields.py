@@ -5,6 +5,7 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field
 
 from tagmetry.errors import InputError
+from tagmetry.files.checked import Metres
 from tagmetry.files.lengths import parse_length_m
 
 
@@ -22,7 +23,7 @@ Length = Annotated[float, BeforeValidator(_length_m), Field(gt=0)]
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]
 Share = Annotated[float, Field(ge=0, le=1)]
-Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
+Vector = Annotated[list[Metres], Field(min_length=3, max_length=3)]
 Quaternion = Annotated[list[float], Field(min_length=4, max_length=4)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 Lengths2 = Annotated[list[Length], Field(min_length=2, max_length=2)]
