@@ -19,7 +19,7 @@ class Exact(Rows, Corners):
     """Corners of n markers, and how the markers look.
 
     Attributes:
-        looks: Numbers of the photometric fit, NaN where the sides alone told, shape (n, 10); a fit
+        looks: Numbers of the photometric fit, NaN where the sides alone told, shape (n, 11); a fit
             to the next image may begin with them.
     """
 

@@ -10,12 +10,13 @@ from tagmetry.detect.photometric.values import narrowed
 from tagmetry.detect.photometric.view import View
 from tagmetry.geometry import Array
 
+_LARGE_PX = 1e4  # half diagonal: pixels are as good as points
 _NO_NOISE_LIMIT = 1e9  # so that all weights are 1
 _NO_GREY = np.zeros((1, 1), dtype=np.uint8)
 
 
 def evaluated(fit: Array, ink: Array, places: Array, edges: int) -> tuple[Array, Array]:
-    """Return the grey values of places, (n,), and their derivatives by the fit, (n, 23)."""
+    """Return the grey values of places, (n,), and their derivatives by the fit, (n, 24)."""
     count = len(places)
     room = row.new_room()
     equations = room[row.EQUATIONS :]
@@ -28,7 +29,7 @@ def evaluated(fit: Array, ink: Array, places: Array, edges: int) -> tuple[Array,
     values, by_fit = [], []
     for block in pixels:
         room[: row.READ] = block
-        evaluate(room, equations, narrowed(fit), edges, _NO_NOISE_LIMIT, len(fit))
+        evaluate(room, equations, narrowed(fit, _LARGE_PX), edges, _NO_NOISE_LIMIT, len(fit))
         lines = equations.reshape(row.MOST_NUMBERS, row.LANES)[:, : row.BLOCK].astype(np.float64)
         values.append(-lines[0])
         by_fit.append(lines[1 : 1 + len(fit)].T)

@@ -91,6 +91,31 @@ def test_covariance_everywhere(
     assert low < rows[:, 8].mean() < high
 
 
+@pytest.mark.parametrize("blur_px", [0.2, 0.3])
+@pytest.mark.parametrize("noise", [16.0, 1.6])
+def test_covariance_of_lenses_sharper_than_their_pixels(blur_px: float, noise: float) -> None:
+    """An edge is nearly the pixel's own box then, which is no bell."""
+    rows = errors(60, 12, side_px=60.0, noise=noise, blur_px=blur_px, camera_known=True)
+    assert 6.0 < rows[:, 8].mean() < 9.5
+
+
+def test_light_that_falls_off_moves_no_corner() -> None:
+    """A lens darkens what is off its axis, by a curve: 2 % less light at a marker's corners."""
+    rng, errors_px, distances2 = np.random.default_rng(13), [], []
+    for _ in range(12):
+        one = seen(rng, 100.0, noise=0.0)
+        y, x = np.mgrid[: one.grey.shape[0], : one.grey.shape[1]]
+        far2 = (x - x.mean()) ** 2 + (y - y.mean()) ** 2
+        light = one.grey * (1 - 0.02 * far2 / 70.0**2)
+        dark = np.rint(light + rng.normal(0, 1.0, light.shape)).clip(0, 255).astype(np.uint8)
+        found = fit_pictures(dark, one.first_px[None], [one.picture], one.camera)
+        error = (found.corners_px[0] - one.corners_px).ravel()
+        errors_px.append(error)
+        distances2.append(error @ np.linalg.solve(found.covariances_px2[0], error))
+    assert rms(np.array(errors_px)) < 0.0035
+    assert np.mean(distances2) < 11.0
+
+
 @pytest.mark.parametrize(
     ("name", "marker_id"),
     [

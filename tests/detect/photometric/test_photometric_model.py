@@ -82,6 +82,7 @@ def fit_of(corners: np.ndarray) -> np.ndarray:
         9e-4,
         1e-4,
         12e-4,
+        0.02,
         0.01,
         0.02,
         -0.01,

@@ -13,7 +13,7 @@ BLOCK = 64  # pixels
 LANES = 4 * BLOCK  # equations that are summed at once: adding up lanes takes time, too
 MOST_EDGES = 5  # of one direction, within reach of a pixel
 _WINDOW = MOST_EDGES + 1
-MOST_NUMBERS = 24  # that are fitted, and the residual; whole vectors
+MOST_NUMBERS = 27  # that are fitted, and the residual; three by three
 
 
 def _rows(first: int, *counts: int) -> tuple[int, ...]:
@@ -24,9 +24,10 @@ def _rows(first: int, *counts: int) -> tuple[int, ...]:
 # As read: place, grey value, whether it counts, first edge in sight, changes of ink around.
 X, Y, SEEN, COUNTS, FIRST_U, FIRST_V, CHANGES, READ = _rows(0, *6 * [1], _WINDOW**2)
 
-# Where it lies: place without bows, cells, their slopes, 1 / denominator, blur in cells.
+# Where it lies: place without bows, cells, their slopes, 1 / denominator, blur in cells, and how
+# square that is.
 BENT_X, BENT_Y, U, V, UX, UY, VX, VY, DOWN, _PLACED = _rows(READ, *9 * [1])
-SHARP_U, SHARP_V, CORNER, MEETING, _SEEN = _rows(_PLACED, *4 * [1])
+SHARP_U, SHARP_V, SQUARE_U, SQUARE_V, CORNER, MEETING, _SEEN = _rows(_PLACED, *6 * [1])
 
 # Steps across the edges in sight, their slopes and bends; the first is no edge: 1, 0, 0.
 STEP_U, BELL_U, BEND_U, STEP_V, BELL_V, BEND_V, _STEPS = _rows(_SEEN, *6 * [_WINDOW])

@@ -95,7 +95,7 @@ def _solved(M: tuple[float, float, float, float], u: float, v: float) -> tuple[f
 
 @kernel
 def _cells_by_fit(fit: Array, lens: Array, x: float, y: float) -> Array:
-    """Return d(u, v) / d fit at a place, shape (2, 23)."""
+    """Return d(u, v) / d fit at a place, shape (2, 24)."""
     x, y = straight_place(x, y, lens)
     bent_x, bent_y = bent_place(fit, x, y)
     u, v, down = cells_at(fit, bent_x, bent_y)

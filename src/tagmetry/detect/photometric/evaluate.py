@@ -12,7 +12,7 @@ import numpy as np
 from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
 from tagmetry.detect.photometric.model import BLUR, BOWS, SLOPES, bent_place
-from tagmetry.detect.photometric.values import write_values
+from tagmetry.detect.photometric.values import SQUARE, write_values
 from tagmetry.detect.photometric.whiteness import write_whiteness
 
 
@@ -28,7 +28,7 @@ def evaluate(
         fit: The numbers, from `narrowed`.
         edges: How many edges of each direction a pixel sees.
         noise: Grey values; residuals far beyond count less.
-        count: 10, 18 or 23.
+        count: 10, 18, 19 or 24.
     """
     write_cells(room, fit)
     _write_blurs(room, fit)
@@ -63,8 +63,11 @@ def write_cells(room: Narrow, fit: Narrow) -> None:
 
 @kernel
 def _write_blurs(room: Narrow, fit: Narrow) -> None:
-    """Write one over the blur in cells, along u and along v, and how these are correlated."""
-    xx, xy, yy = fit[BLUR], fit[BLUR + 1], fit[BLUR + 2]
+    """Write one over the blur in cells, along u and along v, and how these are correlated.
+
+    Write also how square it is: the part of its fourth cumulant that the pixel's own square has.
+    """
+    xx, xy, yy, square = fit[BLUR], fit[BLUR + 1], fit[BLUR + 2], fit[SQUARE]
     for p in range(row.BLOCK):
         ux, uy, vx, vy = room[row.UX + p], room[row.UY + p], room[row.VX + p], room[row.VY + p]
         sharp_u = f32(1) / np.sqrt(xx * ux * ux + f32(2) * xy * ux * uy + yy * uy * uy)
@@ -72,6 +75,10 @@ def _write_blurs(room: Narrow, fit: Narrow) -> None:
         mixed = xx * ux * vx + xy * (ux * vy + uy * vx) + yy * uy * vy
         room[row.SHARP_U + p], room[row.SHARP_V + p] = sharp_u, sharp_v
         room[row.CORRELATION + p] = mixed * sharp_u * sharp_v
+        across_u, along_u = (ux * sharp_u) ** 2, (uy * sharp_u) ** 2
+        across_v, along_v = (vx * sharp_v) ** 2, (vy * sharp_v) ** 2
+        room[row.SQUARE_U + p] = square * (across_u * across_u + along_u * along_u)
+        room[row.SQUARE_V + p] = square * (across_v * across_v + along_v * along_v)
 
 
 @kernel

@@ -5,7 +5,7 @@ import numpy as np
 from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.evaluate import evaluate
 from tagmetry.detect.photometric.kernel import Narrow, kernel, step
-from tagmetry.detect.photometric.model import BLACK, BLUR, EXPONENT, SLOPES, cell_px
+from tagmetry.detect.photometric.model import BLACK, BLUR, EXPONENT, FALL, SLOPES, cell_px
 from tagmetry.detect.photometric.noise import LEAST_NOISE, count_sizes, new_counts, noise_of
 from tagmetry.detect.photometric.normal import add_products, factor, solve
 from tagmetry.detect.photometric.values import narrowed
@@ -16,6 +16,7 @@ _JUDGED = 256  # pixels, about, whose residuals tell the noise
 _PRIOR_EXPONENT = 0.7  # of its logarithm
 _PRIOR_BLUR = 1.0  # of its variances, as a share
 _PRIOR_SLOPE = 0.3  # of light, across half a diagonal
+_PRIOR_FALL = 0.03  # the same, as a share
 _MOST_MOVE_PX = 1.5
 _MOST_ROUNDS = 6
 _OF_WEIGHTS = 1.228  # (E w / E (w r)')^2 of Cauchy's weights on Gaussian noise
@@ -38,10 +39,11 @@ def fit_pixels(
 
     Args:
         view: Whose pixels have been gathered, and their windows set.
-        fit: First guess, changed, shape (23,).
+        fit: First guess, changed, shape (24,).
         pixel_count: How many pixels there are.
         edges: How many edges of each direction a pixel sees.
-        count: How many numbers to fit: 10, place and levels; 18, all but bows; 23.
+        count: How many numbers to fit: 10, place and levels; 18, all but
+            what follows; 19, how light falls off as well; 24, and bows.
         settled_px: What little is.
         noise: First guess, grey values.
         every: One block of so many is looked at.
@@ -80,7 +82,7 @@ def _sum_up(
 ) -> float:
     """Write the sums of products of residuals and derivatives; return the noise."""
     room, equations, counts = view.room, view.room[row.EQUATIONS :], new_counts()
-    narrow, lanes = narrowed(fit), 0
+    narrow, lanes = narrowed(fit, view.frame[2]), 0
     sums[:] = 0.0
     for first in range(0, pixel_count, every * row.BLOCK):
         _read(room, view.pixels, first, edges)
@@ -111,7 +113,7 @@ def variance_beside_edges(
     There it holds what the model does not describe too, and it is what moves the fit.
     """
     room, equations, squares, slopes2 = view.room, view.room[row.EQUATIONS :], 0.0, 1e-12
-    narrow = narrowed(fit)
+    narrow = narrowed(fit, view.frame[2])
     across, downward = row.J + 2 * row.LANES, row.J + 5 * row.LANES  # by a shift of the picture
     for first in range(0, pixel_count, row.BLOCK):
         _read(room, view.pixels, first, edges)
@@ -167,6 +169,7 @@ def _add_priors(sums: Array, fit: Array, noise: float) -> None:
         _add_prior(sums, BLUR + k, noise / (_PRIOR_BLUR * mean), off)
     for k in range(SLOPES, EXPONENT):
         _add_prior(sums, k, noise / _PRIOR_SLOPE, fit[k])
+    _add_prior(sums, FALL, noise / _PRIOR_FALL, fit[FALL])  # not read unless it is fitted
 
 
 @step

@@ -22,6 +22,7 @@ from tagmetry.detect.photometric.model import (
     BOWS,
     COUNT,
     EXPONENT,
+    FALL,
     SLOPES,
     blur_in_cells,
     cells_at,
@@ -44,6 +45,7 @@ _COARSE_SPARE_PX, _SPARE_PX = 1.0, 0.2  # that a first guess may be wrong by
 _ROUGHLY_PX, _NEARLY_PX, SETTLED_PX = 0.15, 0.03, 0.12
 _OTHER_BLUR, _OTHER_EXPONENT = 0.5, 0.2  # its variance as a share; its logarithm
 _NEAR_PX = 0.4  # that a first guess may be wrong by where pixels are chosen only once
+_FALLING_HALF_PX = 21.0
 _SIGHT = 6.0  # blurs, both sides of a pixel together
 
 
@@ -64,7 +66,7 @@ def fit_markers(
         grey: The image.
         inks: Cells of all pictures, row by row, one picture after the other, 1 is white.
         sizes: Cells along a side of each, shape (n,).
-        starts: From `first_fits`, shape (n, 23); zeros after the homography where it is not known
+        starts: From `first_fits`, shape (n, 24); zeros after the homography where it is not known
             how a marker looks.
         frames: Middle x, y and half diagonal, pixels, shape (n, 3).
         lenses: See `lenses_around`.
@@ -72,7 +74,7 @@ def fit_markers(
         bows: Whether to fit bows, shape (n,).
 
     Returns:
-        The fits (n, 23); corners (n, 4, 2) and the covariances of corners and bows (n, 13, 13), in
+        The fits (n, 24); corners (n, 4, 2) and the covariances of corners and bows (n, 13, 13), in
         units of the half diagonal, from the middle; noise (grey values, shape (n,)); how far the
         picture moved in the last round (px, shape (n,)), infinite where the fit failed.
     """
@@ -102,7 +104,7 @@ def fit_marker(
     joint: Array,
 ) -> tuple[float, float]:
     """Write the fit, corners and covariance of one marker; return noise and the last move."""
-    numbers = COUNT if bows else BOWS
+    numbers = _number_count(bows, view.frame[2])
     noise, moved_px, covariance = 0.0, np.inf, (np.zeros((numbers, numbers)), np.ones(numbers))
     first = fit.copy()
     if fit[BLACK] > 0.0:
@@ -113,6 +115,14 @@ def fit_marker(
     if np.isfinite(moved_px):
         _write_corners(view, fit, square, covariance, places, joint)
     return noise, moved_px
+
+
+@step
+def _number_count(bows: bool, half_px: float) -> int:
+    """Return how many numbers are fitted; across small markers light falls off evenly enough."""
+    if bows:
+        return COUNT
+    return BOWS if half_px >= _FALLING_HALF_PX else FALL
 
 
 @step
@@ -166,7 +176,7 @@ def _fit_coarsely(view: View, ink: Array, fit: Array) -> tuple[float, float]:
     _set_levels(fit, ink, view.pixels, count)
     edges = _with_windows(view, ink, fit, count, _COARSE_SPARE_PX)
     noise, moved_px = _FIRST_NOISE, np.inf
-    for numbers in (SLOPES, BOWS):
+    for numbers in (SLOPES, FALL):
         settled_px = _ROUGHLY_PX if numbers == SLOPES else _NEARLY_PX
         noise, moved_px, _, _ = fit_pixels(view, fit, count, edges, numbers, settled_px, noise)
     return noise, moved_px

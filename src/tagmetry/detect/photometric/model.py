@@ -4,7 +4,7 @@ A pixel at the place x, y (from the marker's middle, in units of its half diagon
 the lens is known) shows
 
     value = 255 * light^(1 / exponent)
-    light = black(x, y) + contrast(x, y) * white(u, v; blur)
+    light = black(x, y) + contrast(x, y) * white(u, v; blur) + fall |x|^2 (the same in the middle)
     (u, v) = G (x + bow)           cells of the printed picture
 
 The numbers of the fit, in this order:
@@ -14,7 +14,8 @@ The numbers of the fit, in this order:
     10..13  slopes of light along x and y: of black, of the contrast
     14      logarithm of the exponent
     15..17  the blur's covariance xx, xy, yy, with the pixel's own square in it
-    18..22  bows: what |x|^2 - 1 moves to the right and down; what x^2 - y^2 does, with -2 x y and
+    18      fall: the share of light that comes in by the half diagonal, as a lens darkens
+    19..23  bows: what |x|^2 - 1 moves to the right and down; what x^2 - y^2 does, with -2 x y and
             2 x y in the other direction; what |x|^2 - 1 moves outward
 """
 
@@ -23,8 +24,8 @@ import numpy as np
 from tagmetry.detect.photometric.kernel import Narrow, f32, kernel
 from tagmetry.geometry import Array
 
-BLACK, SLOPES, EXPONENT, BLUR, BOWS = 8, 10, 14, 15, 18
-COUNT = 23
+BLACK, SLOPES, EXPONENT, BLUR, FALL, BOWS = 8, 10, 14, 15, 18, 19
+COUNT = 24
 LOOK_COUNT = BOWS - BLACK
 LOOKS = slice(BLACK, BOWS)  # how light, camera and blur make the picture look
 

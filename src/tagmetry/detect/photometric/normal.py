@@ -13,12 +13,18 @@ _SEEN = 16  # what is asked of an inverse at once: whole vectors
 def add_products(equations: Narrow, lanes: int, sums: Array, count: int) -> None:
     """Add the first lanes' products to the lower triangle, three rows by three: numbers are reused.
 
+    A last row that is left over is taken alone.
+
     Row and column 0 are of the residuals.
     """
     for a in range(0, count + 1, 3):
         rows = equations[a * row.LANES :]
         for b in range(0, a + 1, 3):
-            _add_nine(rows, equations[b * row.LANES :], lanes, sums[a : a + 3, b : b + 3])
+            columns = equations[b * row.LANES :]
+            if a == count:
+                _add_three(rows, columns, lanes, sums[a, b : b + 3])
+            else:
+                _add_nine(rows, columns, lanes, sums[a : a + 3, b : b + 3])
 
 
 @kernel
@@ -39,6 +45,18 @@ def _add_nine(rows: Narrow, columns: Narrow, lanes: int, sums: Array) -> None:
     sums[2, 0] += ca
     sums[2, 1] += cb
     sums[2, 2] += cc
+
+
+@kernel
+def _add_three(last: Narrow, columns: Narrow, lanes: int, sums: Array) -> None:
+    ak = am = an = np.float32(0)
+    for p in range(lanes):
+        a = last[p]
+        ak, am = ak + a * columns[p], am + a * columns[row.LANES + p]
+        an += a * columns[2 * row.LANES + p]
+    sums[0] += ak
+    sums[1] += am
+    sums[2] += an
 
 
 @kernel

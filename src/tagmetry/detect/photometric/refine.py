@@ -24,14 +24,15 @@ from tagmetry.detect.photometric.bows import believed
 from tagmetry.detect.photometric.fit import EXPONENTS
 from tagmetry.detect.photometric.ink import printed
 from tagmetry.detect.photometric.marker import SETTLED_PX
-from tagmetry.detect.photometric.model import BLACK, BOWS, EXPONENT, LOOK_COUNT, LOOKS
+from tagmetry.detect.photometric.model import BLACK, BLUR, BOWS, EXPONENT, LOOK_COUNT, LOOKS
 from tagmetry.detect.photometric.start import are_squares, first_fits, frames_of
 from tagmetry.detect.photometric.straight import lenses_around
 from tagmetry.detect.photometric.threads import fit_by_threads
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
-_FLOOR_PX = 0.001  # what neither model nor noise describe
+_FLOOR_PX = 0.0007  # what neither model nor noise describe
+_SHARP_PX2 = 0.15  # of a blur, the pixel's own square in it; of sharper ones the floor is higher
 _LOST_PX = (2.5, 0.05)  # a corner that moved farther was another's; at least, and of the diagonal
 _BOWING_HALF_PX = 21.0  # smaller markers cannot tell a bow from noise
 _LEAST_CONTRAST = 4.0  # in noises
@@ -74,7 +75,7 @@ class Fitted:
         sound: Whether the picture was found to explain the pixels, shape (n,); where not, the
             corners are those given and the covariance means nothing.
         looks: How light, camera and blur make each look, for the next image's fit to begin with;
-            NaN where not sound, shape (n, 10).
+            NaN where not sound, shape (n, 11).
     """
 
     corners_px: Array
@@ -108,7 +109,7 @@ def fit_pictures(
         pictures: What is printed there, n of them.
         camera: Intrinsics, so that edges are followed along their curves.
         threads: How many to use at most; by default as many as OpenCV does.
-        looks: How each looked in the image before, NaN where that is not known, shape (n, 10).
+        looks: How each looked in the image before, NaN where that is not known, shape (n, 11).
             Fits only begin with it, and are the quicker for it; those places must be good to some
             tenths of a pixel.
     """
@@ -153,11 +154,18 @@ def _fitted(
             places[tells], joints[tells], half_px[tells], fits[tells, BOWS:]
         )
     moved_px = frames[:, None, :2] + half_px[:, None, None] * places
-    covariances_px2 = half_px[:, None, None] ** 2 * covariances + _FLOOR_PX**2 * np.eye(8)
+    covariances_px2 = half_px[:, None, None] ** 2 * covariances + _floors_px2(fits, half_px)
     sound &= _plausible(moved_px, covariances_px2, corners_px, half_px)
     looks = np.where(sound[:, None], fits[:, LOOKS], np.nan)
     corners_px = np.where(sound[:, None, None], moved_px, corners_px)
     return Fitted(corners_px, covariances_px2, sound, looks)
+
+
+def _floors_px2(fits: Array, half_px: Array) -> Array:
+    """Return what is added to covariances, shape (n, 8, 8): the more, the sharper the blur."""
+    blur_px2 = half_px**2 * np.minimum(fits[:, BLUR], fits[:, BLUR + 2])
+    floors_px = _FLOOR_PX * np.maximum(1.0, _SHARP_PX2 / np.maximum(blur_px2, 1e-9)) ** 3
+    return np.asarray(floors_px[:, None, None] ** 2 * np.eye(8))
 
 
 def _squares(inks: Sequence[Array], pictures: Sequence[Picture]) -> Array:

@@ -29,14 +29,14 @@ def frames_of(corners_px: Array) -> Array:
 def first_fits(
     corners_px: Array, frames: Array, lenses: Array, squares: Array, looks: Array
 ) -> Array:
-    """Return the numbers of the model with the homographies of first corners, shape (n, 23).
+    """Return the numbers of the model with the homographies of first corners, shape (n, 24).
 
     Args:
         corners_px: Clockwise from the picture's top left, shape (n, 4, 2).
         frames: Middle x, y and half diagonal of the markers, pixels, shape (n, 3).
         lenses: See `lenses_around`.
         squares: First and last cell coordinate of the squares, shape (n, 2).
-        looks: How each looked before; NaN where that is not known, shape (n, 10).
+        looks: How each looked before; NaN where that is not known, shape (n, 11).
     """
     places = (corners_px - frames[:, None, :2]) / frames[:, None, 2:]
     cells = np.zeros((len(places), 3, 3))

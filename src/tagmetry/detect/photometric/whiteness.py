@@ -2,12 +2,14 @@
 
 In units of cells the printed picture is a sum of steps at the corners of its cells,
 
-    white(u, v) = sum over i, j of change[j, i] * Phi((u - i) / blur_u) * Phi((v - j) / blur_v),
+    white(u, v) = sum over i, j of change[j, i] * step((u - i) / blur_u) * step((v - j) / blur_v),
+    step(z) = Phi(z) + square * (z^3 - 3 z) * phi(z),
 
-of which a pixel sees the few within its window; what lies before the window stands in its first row
-and column, where Phi is 1: there an edge comes from afar, and passes all that is in sight. Where
-the view is oblique the blur is correlated between u and v; this bends what happens where edges
-cross, and is followed to the second order (Mehler's series).
+where the pixel's own square in the blur counts with its fourth moment too (square; 0 for a bell).
+Of these a pixel sees the few within its window; what lies before the window stands in its first row
+and column, where the step is 1: there an edge comes from afar, and passes all that is in sight.
+Where the view is oblique the blur is correlated between u and v; this bends what happens where
+edges cross, and is followed to the second order (Mehler's series).
 """
 
 from tagmetry.detect.photometric import block as row
@@ -55,10 +57,10 @@ def _write_one_corner(room: Narrow) -> None:
     """Write the same where each pixel sees a single corner, and the two edges through it."""
     for p in range(row.BLOCK):
         step_u, bell_u, bend_u = _step(
-            room[row.U + p] - room[row.FIRST_U + p], room[row.SHARP_U + p]
+            room[row.U + p] - room[row.FIRST_U + p], room[row.SHARP_U + p], room[row.SQUARE_U + p]
         )
         step_v, bell_v, bend_v = _step(
-            room[row.V + p] - room[row.FIRST_V + p], room[row.SHARP_V + p]
+            room[row.V + p] - room[row.FIRST_V + p], room[row.SHARP_V + p], room[row.SQUARE_V + p]
         )
         change_u, change_v = room[row.CHANGES + _B + p], room[row.CHANGES + 2 * _B + p]
         change, correlation = room[row.CHANGES + 3 * _B + p], room[row.CORRELATION + p]
@@ -72,18 +74,26 @@ def _write_one_corner(room: Narrow) -> None:
 
 
 @kernel
-def _step(past: f32, sharp: f32) -> tuple[f32, f32, f32]:
-    """Return the step across an edge so many cells ago, its slope and its bend, per blur."""
+def _step(past: f32, sharp: f32, square: f32) -> tuple[f32, f32, f32]:
+    """Return the step across an edge so many cells ago, its slope and its bend, per blur.
+
+    The step follows how square the blur is (Edgeworth's series); slope and bend, which only lead
+    there, are those of a bell.
+    """
     z = min(max(past * sharp, -_SIGHT), _SIGHT)
     step, bell = step_and_bell(z)
-    return step, bell, z * bell
+    bend = z * bell
+    return step + square * (z * z - f32(3)) * bend, bell, bend
 
 
 @kernel
 def _write_steps(at: Narrow, first: Narrow, edge: int, sharp: Narrow, steps: Narrow) -> None:
     """Write the step across one edge, its slope and its bend."""
+    square = sharp[row.SQUARE_U - row.SHARP_U :]  # the same for v
     for p in range(row.BLOCK):
-        steps[p], steps[_BELL + p], steps[_BEND + p] = _step(at[p] - first[p] - f32(edge), sharp[p])
+        steps[p], steps[_BELL + p], steps[_BEND + p] = _step(
+            at[p] - first[p] - f32(edge), sharp[p], square[p]
+        )
 
 
 @kernel

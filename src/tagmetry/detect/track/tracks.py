@@ -31,7 +31,7 @@ class Tracks(Rows):
         is_new: Seen once only: how it moves is not known, shape (n,).
         missed: In how many images it was not seen since, shape (n,).
         looks: How light, camera and blur made each look, NaN where that is not known, shape
-            (n, 10); the fit of the next image begins with it.
+            (n, 11); the fit of the next image begins with it.
     """
 
     families: IntArray
