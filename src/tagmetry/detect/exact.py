@@ -8,14 +8,13 @@ import numpy as np
 
 from tagmetry.camera import Camera
 from tagmetry.detect.photometric import LOOK_COUNT, Picture, fit_pictures
-from tagmetry.detect.rows import Rows
 from tagmetry.detect.sides import Corners, refine
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels
 
 
 @dataclass(frozen=True)
-class Exact(Rows, Corners):
+class Exact(Corners):
     """Corners of n markers, and how the markers look.
 
     Attributes:

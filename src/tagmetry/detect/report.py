@@ -26,9 +26,12 @@ def detections(
         families: Of the detector.
         size_px: (width, height) of the image.
     """
-    names = [one.name for one in families]
+    names = np.array([one.name for one in families])[named.families]
+    x, y = corners.corners_px[:, 0].T
+    order = np.lexsort((y, x, named.ids, names))
+    named, corners = named.at(order), corners.at(order)
     columns = (
-        named.families.tolist(),
+        names[order].tolist(),
         named.ids.tolist(),
         corners.corners_px,
         corners.covariances_px2,
@@ -38,8 +41,7 @@ def detections(
         _touches_border(corners.corners_px, size_px).tolist(),
         (named.count_of_each > 1).tolist(),
     )
-    found = [Detection(names[place], *rest) for place, *rest in zip(*columns, strict=True)]
-    return tuple(sorted(found, key=lambda one: (one.family, one.id, *one.corners_px[0].tolist())))
+    return tuple(Detection(*one) for one in zip(*columns, strict=True))
 
 
 def distinct_rejections(

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tagmetry.camera import Camera
+from tagmetry.detect.rows import Rows
 from tagmetry.detect.sides.sides import Sides
 from tagmetry.detect.sides.step import fit_steps
 from tagmetry.detect.sides.straighten import model_error, straightened
@@ -26,8 +27,8 @@ _LOST_PX = 2.5  # a side that moved farther was not the one meant
 _UNREFINED_PX2 = np.diag([4.0, 4.0])  # of a side's offset and turn, where the fit failed
 
 
-@dataclass(frozen=True)
-class Corners:
+@dataclass(frozen=True, eq=False)
+class Corners(Rows):
     """Refined corners of n markers.
 
     Attributes:

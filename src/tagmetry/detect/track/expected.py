@@ -7,7 +7,7 @@ import numpy as np
 from tagmetry.detect.choose import Rules
 from tagmetry.detect.places import side_lengths
 from tagmetry.detect.track.blurred import recognised
-from tagmetry.detect.track.greyed import Greyed
+from tagmetry.detect.track.greyed import Greyed, boxes_around
 from tagmetry.detect.track.known import Known
 from tagmetry.detect.track.seen import Seen
 from tagmetry.detect.track.sight import look, nudge_reach_px
@@ -60,9 +60,7 @@ def _of_one_family(
     family = families[place]
     corners_px, deviation_px = known.corners_px[rows], known.deviation_px[rows]
     cells = family.layout.side_cells
-    pad_px = _AROUND_CELLS * side_lengths(corners_px).max(axis=1) / cells + _AROUND_PX
-    pad_px += nudge_reach_px(corners_px, deviation_px, cells)
-    grey = image.look_around(corners_px, pad_px)
+    grey = image.grey if image.is_whole else image.look_at(_around(image, known, rows, cells))
     is_inverted = known.tracks.is_inverted[rows]
     sights = look(grey, family, known.tracks.ids[rows], corners_px, deviation_px, is_inverted)
     forgiven = family.forgiven_bits if rules.forgive_bits is None else rules.forgive_bits
@@ -70,3 +68,11 @@ def _of_one_family(
     if not there.all():
         there |= recognised(sights, ~there)
     return Seen.by_sight(sights, place, rows, is_inverted, there)
+
+
+def _around(image: Greyed, known: Known, rows: IntArray, side_cells: int) -> IntArray:
+    """Return what is looked at of an image to see and measure markers, boxes (n, 4)."""
+    corners_px, deviation_px = known.corners_px[rows], known.deviation_px[rows]
+    pad_px = _AROUND_CELLS * side_lengths(corners_px).max(axis=1) / side_cells + _AROUND_PX
+    pad_px += nudge_reach_px(corners_px, deviation_px, side_cells)
+    return boxes_around(corners_px, pad_px, image.size_px)

@@ -14,25 +14,20 @@ class Greyed:
 
     Attributes:
         grey: Shape (height, width); black where nobody asked to look yet.
+        is_whole: All of it is there.
     """
 
     def __init__(self, pixels: AnyPixels) -> None:
         """Take an image of any kind that a detector takes; 16 bits are converted whole."""
         check_pixels(pixels)
         self._pixels = pixels
-        self._is_whole = not (pixels.dtype == np.uint8 and pixels.ndim == 3 and pixels.shape[2] > 1)
-        self.grey = grey_8bit(pixels) if self._is_whole else np.zeros(pixels.shape[:2], np.uint8)
+        self.is_whole = not (pixels.dtype == np.uint8 and pixels.ndim == 3 and pixels.shape[2] > 1)
+        self.grey = grey_8bit(pixels) if self.is_whole else np.zeros(pixels.shape[:2], np.uint8)
 
     @property
     def size_px(self) -> tuple[int, int]:
         """(width, height)."""
         return self.grey.shape[1], self.grey.shape[0]
-
-    def look_around(self, corners_px: Array, pad_px: Array) -> GreyPixels:
-        """Return the image with what is around squares converted; see `boxes_around`."""
-        if self._is_whole:
-            return self.grey
-        return self.look_at(boxes_around(corners_px, pad_px, self.size_px))
 
     def look_at(self, boxes: IntArray) -> GreyPixels:
         """Return the image with boxes (n, 4) converted: left, top, and past the right and bottom.
@@ -40,11 +35,11 @@ class Greyed:
         Args:
             boxes: Within the image.
         """
-        if self._is_whole:
+        if self.is_whole:
             return self.grey
         width, height = boxes[:, 2] - boxes[:, 0], boxes[:, 3] - boxes[:, 1]
         if (width * height).sum() > self.grey.size:
-            boxes, self._is_whole = np.array([[0, 0, *self.size_px]]), True
+            boxes, self.is_whole = np.array([[0, 0, *self.size_px]]), True
         code = _CODES[self._pixels.shape[2]]
         for left, top, right, bottom in boxes:
             if left < right and top < bottom:
