@@ -10,9 +10,10 @@ from moving_markers import Shown, image
 from tagmetry.detect.grey import grey_8bit
 from tagmetry.detect.reading.decode import read
 from tagmetry.detect.reading.nearest import nearest
+from tagmetry.detect.reading.sample import new_room
 from tagmetry.detect.track.greyed import Greyed, boxes_around
 from tagmetry.detect.track.motion import moved, predicted
-from tagmetry.detect.track.nudge import nudged
+from tagmetry.detect.track.nudge import PROFILE_PLACES, new_bench, nudge
 from tagmetry.detect.track.sight import look
 from tagmetry.detect.track.strips import turns
 from tagmetry.detect.track.tracks import Tracks
@@ -97,15 +98,22 @@ def test_boxes_stay_in_the_image() -> None:
     assert (boxes <= [100, 80, 100, 80]).all()
 
 
+def nudged(grey: np.ndarray, square_px: np.ndarray, reach_px: float) -> np.ndarray:
+    """Return a dark square moved onto the edges within reach, once."""
+    moved = np.empty_like(square_px)
+    nudge(grey, square_px, reach_px, 1.0, new_bench(new_room(PROFILE_PLACES)), moved)
+    return moved
+
+
 @pytest.mark.parametrize("shift_px", [0.0, 2.0, 4.0, 6.0])
 def test_squares_are_moved_onto_the_edges(shift_px: float) -> None:
     for k in range(8):
         shown = Shown(k, 150, 120, side_px=50, turn_deg=17 * k)
-        truth = shown.corners_px()[None]
+        truth = shown.corners_px()
         off = shift_px * np.array([np.cos(k), np.sin(k)])
-        found = nudged(image([shown]), truth + off, np.array([9.0]), np.ones(1))
+        found = nudged(image([shown]), truth + off, 9.0)
         assert np.abs(found - truth).max() < 1.5
-        again = nudged(image([shown]), found, np.array([3.0]), np.ones(1))
+        again = nudged(image([shown]), found, 3.0)
         assert np.abs(again - truth).max() < 0.4
 
 

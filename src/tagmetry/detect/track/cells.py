@@ -8,8 +8,8 @@ quiet zone beside a black border. The values there are modelled as
 with `expected` +1 for white and -1 for black: uneven light is a plane, d half the contrast.
 """
 
-from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,8 +21,7 @@ _OUTSIDE_CELLS = 0.5
 _TAP_CELLS = 0.17  # how far from a cell's centre its four taps are
 
 
-@dataclass(frozen=True, eq=False)
-class Places:
+class Places(NamedTuple):
     """What the markers of a layout share.
 
     Attributes:
@@ -31,6 +30,7 @@ class Places:
         quiet: How many of them, at the end, lie in the quiet zone.
         light: Orthonormal functions that 1, x, y of the places are made of, shape (k, 3).
         taps: Where values are taken for each, shape (2, 4 k).
+        side_cells: Along a side of the square.
     """
 
     at: Array
@@ -38,6 +38,7 @@ class Places:
     quiet: int
     light: Array
     taps: Narrow
+    side_cells: float
 
 
 @cache
@@ -49,7 +50,8 @@ def places(layout: Layout) -> Places:
     plain = np.repeat([-1.0, 1.0], [len(black), len(white) + len(quiet)])
     light, _ = np.linalg.qr(np.column_stack([np.ones(len(at)), at - 0.5]))
     taps = taps_of(at, _TAP_CELLS / layout.side_cells)
-    return Places(at, plain, len(quiet), np.ascontiguousarray(light), taps)
+    light = np.ascontiguousarray(light)
+    return Places(at, plain, len(quiet), light, taps, float(layout.side_cells))
 
 
 def expected(family: MarkerFamily, marker_id: int) -> Array:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tagmetry.detect.reading.sample import Narrow, Room, look_up, new_room
+from tagmetry.detect.reading.sample import Narrow, Room, look_up
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import GreyPixels, IntArray
 
@@ -23,7 +23,12 @@ _COUNT = 2 * _REACH + 1
 _READ = _COUNT + 2 * _APART
 _SHARE = 0.6  # of the steepest step: its middle is midway between where it falls below
 _LEAST_SINE = 0.1
-PLACES = _SCANS * _READ  # that are looked up of a side: the first of each profile, the second, …
+_FINE_CELLS = 0.5  # how far edges are looked for once more
+_LEAST_FINE_PX = 1.5
+_FINE_TRIES = 3
+_STAYS_PX = 0.5  # a square that moves less is on its edges
+# What is looked up across a side: the first place of each profile, then the second, …
+PROFILE_PLACES = _SCANS * _READ
 _ALONG = np.tile(_AT + 0.5, _READ).astype(np.float32)
 _ACROSS = np.repeat(np.arange(_READ) - _REACH - _APART, _SCANS).astype(np.float32)
 
@@ -32,11 +37,12 @@ class Bench(NamedTuple):
     """What is worked on for one square.
 
     Attributes:
-        room: For `PLACES` places at least.
+        room: For `PROFILE_PLACES` places at least.
         rises: Of the profiles of a side, the first of each, the second, …
         best: Where each rises most.
         shifts: Where that is, in steps from its middle.
         lines: Of the sides, (point, direction), shape (4, 4).
+        before_px: The square before it is moved once more, shape (4, 2).
     """
 
     room: Room
@@ -44,43 +50,91 @@ class Bench(NamedTuple):
     best: IntArray
     shifts: Array
     lines: Array
+    before_px: Array
 
 
 @njit(cache=True, nogil=True)
 def new_bench(room: Room) -> Bench:
     """Return a bench with a room."""
     rises, best = np.empty(_COUNT * _SCANS, np.float32), np.empty(_SCANS, np.int64)
-    return Bench(room, rises, best, np.empty(_SCANS), np.empty((4, 4)))
+    return Bench(room, rises, best, np.empty(_SCANS), np.empty((4, 4)), np.empty((4, 2)))
 
 
 @njit(cache=True, nogil=True)
-def nudged(grey: GreyPixels, corners_px: Array, reach_px: Array, sign: Array) -> Array:
-    """Return squares moved onto the edges within reach, shape (n, 4, 2).
+def onto_edges(
+    grey: GreyPixels,
+    square_px: Array,
+    reach_px: float,
+    sign: float,
+    side_cells: float,
+    bench: Bench,
+    moved_px: Array,
+) -> None:
+    """Write a square moved onto the edges: from afar at first coarsely, then finely until it stays.
+
+    One side may be drawn to another edge as long as the others are not on theirs.
 
     Args:
         grey: 8-bit image.
-        corners_px: Where they are expected, clockwise, shape (n, 4, 2).
-        reach_px: How far from there edges are looked for, shape (n,).
-        sign: +1 for dark squares on bright ground, -1 for bright ones, shape (n,).
+        square_px: Where it is expected, clockwise, shape (4, 2).
+        reach_px: How far from there edges are looked for at first.
+        sign: +1 for a dark square on bright ground, -1 for a bright one.
+        side_cells: Along a side.
+        bench: To work on.
+        moved_px: For the result, shape (4, 2).
     """
-    moved, bench = np.empty_like(corners_px), new_bench(new_room(PLACES))
-    for i in range(len(corners_px)):
-        nudge(grey, corners_px[i], reach_px[i], sign[i], bench, moved[i])
-    return moved
+    before_px = bench.before_px
+    before_px[:] = square_px
+    nudge(grey, before_px, reach_px, sign, bench, moved_px)
+    fine_px = max(_FINE_CELLS * cell_px(moved_px, side_cells), _LEAST_FINE_PX)
+    for _ in range(_FINE_TRIES):
+        if reach_px <= fine_px and _farthest(before_px, moved_px) <= _STAYS_PX:
+            break
+        before_px[:], reach_px = moved_px, fine_px
+        nudge(grey, before_px, fine_px, sign, bench, moved_px)
+
+
+@njit(cache=True, nogil=True)
+def _farthest(before_px: Array, after_px: Array) -> float:
+    """Return the most that a coordinate of the corners differs."""
+    most_px = 0.0
+    for k in range(4):
+        x, y = after_px[k, 0] - before_px[k, 0], after_px[k, 1] - before_px[k, 1]
+        most_px = max(most_px, abs(x), abs(y))
+    return most_px
+
+
+@njit(cache=True, nogil=True)
+def cell_px(square_px: Array, side_cells: float) -> float:
+    """Return the size of a cell of a square."""
+    around_px = 0.0
+    for k in range(4):
+        x, y = square_px[k, 0] - square_px[k - 1, 0], square_px[k, 1] - square_px[k - 1, 1]
+        around_px += np.sqrt(x**2 + y**2)
+    return float(around_px / 4 / side_cells)
 
 
 @njit(cache=True, nogil=True)
 def nudge(
     grey: GreyPixels, square_px: Array, reach_px: float, sign: float, bench: Bench, moved: Array
 ) -> None:
-    """Write one square, (4, 2), moved onto the edges within reach; arguments as of `nudged`."""
+    """Write a square moved onto the edges within reach.
+
+    Args:
+        grey: 8-bit image.
+        square_px: Where it is expected, clockwise, shape (4, 2).
+        reach_px: How far from there edges are looked for.
+        sign: +1 for a dark square on bright ground, -1 for a bright one.
+        bench: To work on.
+        moved: For the result, shape (4, 2).
+    """
     for side in range(4):
         x, y = square_px[side, 0], square_px[side, 1]
         along_x, along_y = square_px[side - 3, 0] - x, square_px[side - 3, 1] - y
         step = reach_px / _REACH / max(np.hypot(along_x, along_y), 1e-9)
         out_x, out_y = step * along_y, -step * along_x
         _place_profiles((x, y), (along_x, along_y), (out_x, out_y), bench.room)
-        look_up(grey, bench.room, PLACES)
+        look_up(grey, bench.room, PROFILE_PLACES)
         _write_shifts(sign, bench)
         start, end = _ends(bench.shifts)
         turn, line = end - start, bench.lines[side]
@@ -97,7 +151,7 @@ def _place_profiles(
     x, y = np.float32(start[0]), np.float32(start[1])
     along_x, along_y = np.float32(along[0]), np.float32(along[1])
     out_x, out_y = np.float32(out[0]), np.float32(out[1])
-    for k in range(PLACES):
+    for k in range(PROFILE_PLACES):
         room.x[k] = x + _ALONG[k] * along_x + _ACROSS[k] * out_x
         room.y[k] = y + _ALONG[k] * along_y + _ACROSS[k] * out_y
 

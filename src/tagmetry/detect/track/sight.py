@@ -8,7 +8,7 @@ import numpy as np
 
 from tagmetry.detect.places import side_lengths
 from tagmetry.detect.track.cells import expected, places
-from tagmetry.detect.track.seeing import Asked, Seen, Spots, see_each
+from tagmetry.detect.track.seeing import Asked, Shown, see_each
 from tagmetry.detect.workers import at_once, shares
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
@@ -103,21 +103,20 @@ def look(
         is_inverted: White on black, shape (n,).
     """
     at, layout = places(family.layout), family.layout
-    spots = Spots(at.taps, at.plain, at.light, at.quiet, float(layout.side_cells))
     sign = np.where(is_inverted != layout.white_border, -1.0, 1.0)
     reach_px = nudge_reach_px(corners_px, deviation_px, layout.side_cells)
     count, k = len(ids), len(at.light)
-    seen = Seen(
+    shown = Shown(
         np.empty((count, 4, 2)), np.empty((count, k)), np.empty((count, 6)), np.empty((count, 4))
     )
 
     def look_at(some: slice) -> None:
-        at_px, reaches_px = np.ascontiguousarray(corners_px[some]), reach_px[some]
-        asked = Asked(family.codes, ids[some], at_px, reaches_px, sign[some], is_inverted[some])
-        see_each(grey, asked, spots, Seen(*(one[some] for one in seen)))
+        codes, at_px = family.codes[ids[some]], np.ascontiguousarray(corners_px[some])
+        asked = Asked(codes, at_px, reach_px[some], sign[some], is_inverted[some])
+        see_each(grey, asked, at, Shown(*(one[some] for one in shown)))
 
     at_once([partial(look_at, some) for some in shares(count, _LEAST_SHARE, cv2.getNumThreads())])
-    return Sights(family, ids, *seen)
+    return Sights(family, ids, *shown)
 
 
 def nudge_reach_px(corners_px: Array, deviation_px: Array, side_cells: int) -> Array:
