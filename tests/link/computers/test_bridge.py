@@ -66,7 +66,8 @@ def test_nothing_is_lost_of_24_robots_at_120_images_a_second(seconds: int) -> No
     came.pop("tagmetry/lab/assign")
     assert len(came) == 3 * len(ROBOTS) + 1
     assert set(came.values()) == {images}
-    assert max(one.missing for one in seen) == 0
+    late = view.refused.get(Refusal.LATE, 0)  # where the computer gave no turn for 250 ms
+    assert sum(one.missing for one in seen) <= late
     last = seen[-1]
     assert last.image == images - 1
     assert [one.name for one in last.world] == list(ROBOTS.values())
@@ -76,7 +77,7 @@ def test_nothing_is_lost_of_24_robots_at_120_images_a_second(seconds: int) -> No
     assert set(last.neighbours) == set(last.commanded) == set(ROBOTS)
     p50, p99 = 1000 * np.percentile(ages_s, [50, 99])
     print(f"\n{sum(came.values())} packets; {len(seen)} of {images} images were looked at")
-    print(f"age when looked at: p50 {p50:.1f} p99 {p99:.1f} ms")
+    print(f"age when looked at: p50 {p50:.1f} p99 {p99:.1f} ms; {late} late")
 
 
 def test_a_host_that_dies_is_missed_and_its_successor_found() -> None:
@@ -89,6 +90,22 @@ def test_a_host_that_dies_is_missed_and_its_successor_found() -> None:
         running.wait()
         with arena(endpoint):
             until(lambda: view.is_heard and view.age_s < 0.3)
+
+
+def test_a_program_that_is_slow_sees_few_images_and_none_late() -> None:
+    endpoint = free_endpoint()
+    with arena(endpoint), look(endpoint) as view:
+        until(lambda: view.newest is not None)
+        seen, ages_s = [], []
+        for _ in range(5):
+            time.sleep(0.4)
+            sight = view.wait()
+            assert sight is not None
+            seen.append(sight.image)
+            ages_s.append(view.age_s)
+            assert len(view._coming) < 5000
+    assert min(np.diff(seen)) > 20
+    assert np.median(ages_s) < 0.2
 
 
 def test_one_without_the_key_sees_nothing() -> None:
