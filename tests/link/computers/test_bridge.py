@@ -22,6 +22,8 @@ from peers import (
 
 from tagmetry.link import Command, Refusal
 from tagmetry.link.computers import ArenaBridge, ArenaSight, ArenaView, Commander
+from tagmetry.link.computers.net import Net
+from tagmetry.link.computers.topics import is_told
 
 pytest.importorskip("zenoh", reason="needs the part zenoh")
 
@@ -43,41 +45,43 @@ def look(endpoint: str) -> ArenaView:
     return ArenaView(endpoint, "lab", VIEW_KEY)
 
 
-def counting(endpoint: str, came: Counter[str]) -> ArenaView:
-    """Return a view that counts what comes, by topic."""
-    view = look(endpoint)
-    hear = view._hear
-    view._hear = lambda topic, packet: (came.update([topic]), hear(topic, packet))
-    return view
-
-
 @pytest.mark.parametrize("seconds", [3, pytest.param(60, marks=pytest.mark.slow)])
 def test_nothing_is_lost_of_24_robots_at_120_images_a_second(seconds: int) -> None:
     endpoint, images, ages_s = free_endpoint(), 120 * seconds, []
     came: Counter[str] = Counter()
     seen: list[ArenaSight] = []
-    with arena(endpoint, images, begin=False) as running, counting(endpoint, came) as view:
+    with arena(endpoint, images, begin=False) as running, look(endpoint) as view:
+        counter = Net(connect=endpoint)
+        inbox = counter.inbox("tagmetry/lab/**", 50_000)
         until(lambda: view.is_heard)
         start(running)
-        while came["tagmetry/lab/state"] < images and (sight := view.wait(5.0)) is not None:
+        while came["tagmetry/lab/state"] < images:
+            sight = view.wait(3.0)
+            came.update(topic for topic, _ in inbox.all(50_000))
+            if sight is None:
+                break
             seen.append(sight)
             ages_s.append(view.age_s)
-        seen += [sight for sight in [view.newest] if sight is not None]
-    came.pop("tagmetry/lab/assign")
+        counter.close()
+    came = Counter({topic: number for topic, number in came.items() if is_about_images(topic)})
     assert len(came) == 3 * len(ROBOTS) + 1
     assert set(came.values()) == {images}
     late = view.refused.get(Refusal.LATE, 0)  # where the computer gave no turn for 250 ms
     assert sum(one.missing for one in seen) <= late
     last = seen[-1]
-    assert last.image == images - 1
+    assert len(seen) > images / 10  # however busy the computer is
     assert [one.name for one in last.world] == list(ROBOTS.values())
-    expected = [robot_state(number, images - 1) for number in ROBOTS]
+    expected = [robot_state(number, last.image) for number in ROBOTS]
     assert [(one.x_m, one.y_m) for one in last.world] == [(e.x_m, e.y_m) for e in expected]
     assert last.held == {2}
     assert set(last.neighbours) == set(last.commanded) == set(ROBOTS)
     p50, p99 = 1000 * np.percentile(ages_s, [50, 99])
     print(f"\n{sum(came.values())} packets; {len(seen)} of {images} images were looked at")
     print(f"age when looked at: p50 {p50:.1f} p99 {p99:.1f} ms; {late} late")
+
+
+def is_about_images(topic: str) -> bool:
+    return topic == "tagmetry/lab/state" or is_told(topic)
 
 
 def test_a_host_that_dies_is_missed_and_its_successor_found() -> None:
@@ -103,9 +107,23 @@ def test_a_program_that_is_slow_sees_few_images_and_none_late() -> None:
             assert sight is not None
             seen.append(sight.image)
             ages_s.append(view.age_s)
-            assert len(view._coming) < 5000
+            assert len(view._unread) < 5000
     assert min(np.diff(seen)) > 20
     assert np.median(ages_s) < 0.2
+
+
+def test_a_program_that_computes_all_the_time_still_sees_images() -> None:
+    endpoint = free_endpoint()
+    with arena(endpoint), look(endpoint) as view:
+        until(lambda: view.newest is not None)
+        images = []
+        for _ in range(20):
+            end_s = time.monotonic() + 0.1
+            while time.monotonic() < end_s:
+                sum(range(1000))
+            sight = view.wait()
+            images.append(-1 if sight is None else sight.image)
+    assert len({*images} - {-1}) > 10  # a callback for each packet lets 2 through
 
 
 def test_one_without_the_key_sees_nothing() -> None:

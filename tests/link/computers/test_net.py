@@ -9,6 +9,7 @@ from peers import free_endpoint, until
 
 from tagmetry.errors import InputError, MissingExtraError
 from tagmetry.link.computers import ArenaBridge, ArenaView, Commander
+from tagmetry.link.computers.inbox import Inbox
 from tagmetry.link.computers.net import Net
 
 KEY = bytes(range(32))
@@ -123,3 +124,31 @@ def test_what_is_told_is_heard_where_it_belongs() -> None:
         until(said)
     assert set(heard) == {("tagmetry/lab/robots/a b/pose", b"\x00\xff")}
     assert not here.tell("tagmetry/lab/state", b"after the end")
+
+
+@pytest.mark.usefixtures("zenoh")
+def test_an_inbox_keeps_the_newest_and_no_more_than_it_may() -> None:
+    endpoint = free_endpoint()
+    with Net(listen=endpoint) as here, Net(connect=endpoint) as there:
+        inbox = there.inbox("tagmetry/lab/*", kept=10)
+
+        def said() -> bool:
+            here.tell("tagmetry/lab/first", b"")
+            return inbox.wait(0.05)
+
+        until(said)
+        for number in range(50):
+            here.tell("tagmetry/lab/state", bytes([number]))
+            here.tell("tagmetry/lab/state", bytes(1201))
+        until(lambda: said_last(inbox))
+        assert inbox.take() is None
+        assert not inbox.wait(0.01)
+    assert inbox.take() is None
+
+
+def said_last(inbox: Inbox) -> bool:
+    """Read what is there; say whether the last of fifty packets came, and with it ten at most."""
+    came = [packet for _, packet in inbox.all(1000)]
+    assert len(came) <= 11
+    assert all(len(packet) <= 1 for packet in came)
+    return came[-1:] == [bytes([49])]

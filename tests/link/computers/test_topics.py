@@ -3,7 +3,7 @@
 import pytest
 
 from tagmetry.errors import InputError
-from tagmetry.link.computers.topics import Topics, checked_name, robot_of
+from tagmetry.link.computers.topics import Topics, checked_name, is_told, robot_of
 from tagmetry.link.layout import Kind
 
 
@@ -13,11 +13,11 @@ def test_topics_are_those_of_the_page() -> None:
     assert lab.command("ada") == "tagmetry/lab/robots/ada/command"
     assert robot_of(lab.answer("robot 3")) == "robot 3"
     assert robot_of(lab.assign) == robot_of(lab.state) == ""
-    assert set(lab.told()) == {
-        "tagmetry/lab/assign",
-        "tagmetry/lab/state",
-        *(f"tagmetry/lab/robots/*/{about}" for about in ("pose", "neighbours", "commanded")),
-    }
+    told = [lab.of(kind, "ada") for kind in (Kind.STATE, Kind.NEIGHBOURS, Kind.COMMAND)]
+    assert [topic.rpartition("/")[2] for topic in told] == ["pose", "neighbours", "commanded"]
+    assert all(map(is_told, told))
+    others = (lab.assign, lab.state, lab.hello, lab.command("ada"), lab.answer("ada"))
+    assert not any(map(is_told, others))
 
 
 @pytest.mark.parametrize("name", ["", "a/b", "*", "a$b", "a?", "#1", "@a", "a\nb", 101 * "a"])

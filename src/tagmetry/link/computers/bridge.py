@@ -6,14 +6,15 @@ however busy the arena is.
 
 import secrets
 import threading
+import time
 from collections.abc import Mapping
 from typing import Self
 
 from tagmetry.closing import Closing
 from tagmetry.errors import InputError
 from tagmetry.link.computers.broadcast import Broadcast
+from tagmetry.link.computers.inbox import Inbox
 from tagmetry.link.computers.keys import ARENA_ID, OPEN_KEY
-from tagmetry.link.computers.mailbox import Mailbox
 from tagmetry.link.computers.net import Net
 from tagmetry.link.computers.stand_ins import StandIns
 from tagmetry.link.computers.topics import Topics, checked_name
@@ -27,8 +28,9 @@ from tagmetry.link.messages import (
     PackedNeighbours,
     State,
 )
-from tagmetry.link.wire import BEAT_US
 
+_LOOK_S = 0.002
+_BEAT_US = 50_000
 _MOST_AT_ONCE = 256
 _KEPT = 2000  # of a flood; what is dropped is said again
 
@@ -66,16 +68,16 @@ class ArenaBridge(Closing):
         obeying = () if command_key is None else tuple(robots)
         self._stand_ins = StandIns(obeying, command_key or b"", lambda: secrets.randbits(64))
         self._obeying = frozenset(obeying)
-        self._mailbox = Mailbox(_KEPT)
         self._lock = threading.Lock()
         self._is_closing = threading.Event()
+        self._inboxes: list[Inbox] = []
         self._thread = threading.Thread(target=self._run, name="bridge", daemon=True)
         self._net = Net(listen, connect)
 
     def __enter__(self) -> Self:
         topics = [self._topics.hello]
         topics += [self._topics.command()] if self._obeying else []
-        self._net.hear(topics, self._mailbox.put)
+        self._inboxes = [self._net.inbox(topic, _KEPT) for topic in topics]
         self._thread.start()
         return self
 
@@ -119,19 +121,13 @@ class ArenaBridge(Closing):
     def _run(self) -> None:
         next_us = now_us()
         while not self._is_closing.is_set():
-            self._mailbox.wait(max(next_us - now_us(), 0) / 1e6)
-            self._hear_some()
+            time.sleep(_LOOK_S)
+            for inbox in self._inboxes:
+                for topic, packet in inbox.all(_MOST_AT_ONCE):  # leaves time in a flood
+                    self._hear(topic, packet)
             if now_us() >= next_us:
-                next_us = now_us() + BEAT_US // 2
+                next_us = now_us() + _BEAT_US
                 self._say_what_is_due()
-
-    def _hear_some(self) -> None:
-        """Hear what has come, but leave time for what is due in a flood."""
-        for _ in range(_MOST_AT_ONCE):
-            found = self._mailbox.take()
-            if found is None:
-                return
-            self._hear(*found)
 
     def _hear(self, topic: str, packet: bytes) -> None:
         if topic != self._topics.hello:

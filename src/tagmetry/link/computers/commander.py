@@ -5,11 +5,12 @@ from collections.abc import Collection
 from tagmetry.errors import InputError
 from tagmetry.link.carrier import Address, Envelope, OneByOne
 from tagmetry.link.computers.keys import command_key_of
-from tagmetry.link.computers.mailbox import Mailbox
 from tagmetry.link.computers.net import Net
 from tagmetry.link.computers.topics import Topics, checked_name, robot_of
 from tagmetry.link.host import Host
 from tagmetry.link.wire import KEY_BYTES
+
+_KEPT = 2000  # answers; what is dropped is said again
 
 
 class NetCarrier(OneByOne):
@@ -22,17 +23,16 @@ class NetCarrier(OneByOne):
     def __init__(self, endpoint: str, topics: Topics) -> None:
         """Join the net, as `Net` does."""
         self.address: Address = endpoint, 0
-        self._topics, self._mailbox = topics, Mailbox()
-        self._net = Net(connect=endpoint)
-        self._net.hear([topics.answer()], self._mailbox.put)
+        self._topics, self._net = topics, Net(connect=endpoint)
+        self._inbox = self._net.inbox(topics.answer(), _KEPT)
 
     def wait(self, timeout_s: float) -> bool:
         """Wait until a packet is there, at most so long; say whether one is."""
-        return self._mailbox.wait(timeout_s)
+        return self._inbox.wait(timeout_s)
 
     def read(self) -> Envelope | None:
         """Return a packet and its robot's name; None where none is there."""
-        found = self._mailbox.take()
+        found = self._inbox.take()
         return None if found is None else (found[1], (robot_of(found[0]), 0))
 
     def write(self, packet: bytes, address: Address) -> bool:

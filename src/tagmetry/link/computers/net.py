@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from tagmetry.closing import Closing
 from tagmetry.errors import InputError, MissingExtraError
+from tagmetry.link.computers.inbox import Inbox
 from tagmetry.link.wire import MOST_BYTES
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ Take = Callable[[str, bytes], None]
 _ENDPOINT = re.compile(r"tcp/(\[[0-9a-fA-F:.%]+\]|[\w.-]+):(\d{1,5})")
 _REASON = re.compile(r": ([A-Z][^:\[\]]*?) \(os error")
 _BATCHES = 16  # of 64 KiB, that wait for a computer; then packets are dropped
+_LONGEST_BYTES = 65_536  # a computer that sends more at once is cut off
 _PATIENCE_MS = 2000  # until a computer answers
 
 
@@ -60,7 +62,7 @@ class Net(Closing):
         return True
 
     def hear(self, topics: Sequence[str], take: Take) -> None:
-        """Hand topic and content of all packets on, from threads of the net; `take` never waits.
+        """Hand topic and content of few packets on, from threads of the net; `take` never waits.
 
         What is longer than any packet is passed over, so that nobody fills a queue with it.
         """
@@ -73,6 +75,13 @@ class Net(Closing):
 
         for topic in topics:
             self._session.declare_subscriber(topic, Callback(hand_on, indirect=False))
+
+    def inbox(self, topic: str, kept: int) -> Inbox:
+        """Return where packets wait that are told from now on, at most so many."""
+        from zenoh.handlers import RingChannel
+
+        ring = self._session.declare_subscriber(topic, RingChannel(kept))
+        return Inbox(ring, self._closed)
 
     def close(self) -> None:
         """Leave."""
@@ -99,6 +108,7 @@ def _opened(listen: str | None, connect: str | None) -> "Session":
         "connect/timeout_ms": _PATIENCE_MS,
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,
+        "transport/link/rx/max_message_size": _LONGEST_BYTES,
         "transport/link/tx/queue/size/real_time": _BATCHES,
         "transport/link/tx/queue/size/data": _BATCHES,
         "transport/link/tx/queue/congestion_control/drop/wait_before_drop": 0,

@@ -61,12 +61,18 @@ class Topics:
         """Return where those are answered that command it."""
         return self._robot(robot, "answer")
 
-    def told(self) -> tuple[str, ...]:
-        """Return all that computers hear that look on."""
-        return (self.assign, self.state, *map(self.of, _ABOUT))
+    @property
+    def everything(self) -> str:
+        """All topics of the arena."""
+        return f"tagmetry/{self.arena}/**"
 
     def _robot(self, robot: str, about: str) -> str:
         return f"tagmetry/{self.arena}/robots/{robot}/{about}"
+
+
+def is_told(topic: str) -> bool:
+    """Say whether a topic tells all of a robot."""
+    return topic.rpartition("/")[2] in _ABOUT.values()
 
 
 def robot_of(topic: str) -> str:

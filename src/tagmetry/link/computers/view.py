@@ -1,33 +1,32 @@
 """An arena seen from another computer.
 
-Packets come faster than a busy program reads them. So those about robots are laid aside unread, and
-once the end of their image has come they replace those of the image before. Whoever asks reads the
-newest image; nobody reads the others.
+Packets come faster than a busy program reads them. They wait in a ring, where the oldest make room
+for the newest, until the program looks; then only the newest image that is whole is read.
 """
 
 import secrets
 import threading
-from collections import deque
+import time
 from collections.abc import Callable
 from typing import Self
 
 from tagmetry.closing import Closing
 from tagmetry.errors import InputError
+from tagmetry.link.computers.inbox import Inbox, Packet
 from tagmetry.link.computers.keys import ARENA_ID, OPEN_KEY
 from tagmetry.link.computers.net import Net
 from tagmetry.link.computers.onlooker import Onlooker
 from tagmetry.link.computers.sight import ArenaSight, Gathering
-from tagmetry.link.computers.topics import Topics, robot_of
+from tagmetry.link.computers.topics import Topics, is_told, robot_of
 from tagmetry.link.host import now_us
 from tagmetry.link.layout import Sender
 from tagmetry.link.messages import ArenaState
 from tagmetry.link.packet import Refusal
 from tagmetry.link.wire import KEY_BYTES
 
-Laid = tuple[str, bytes, int]  # topic, packet, when it came
-
 _SILENCE_US = 500_000
-_MOST_LAID = 10_000
+_MOST_UNREAD = 2000  # packets; three images of 200 robots
+_LOOK_S = 0.001
 
 
 class ArenaView(Closing):
@@ -62,16 +61,17 @@ class ArenaView(Closing):
         self._topics, self._clock = Topics(arena), clock
         self._onlooker = Onlooker(key, lambda: secrets.randbits(64))
         self._gathering = Gathering()
-        self._changed = threading.Condition()
-        self._coming: deque[Laid] = deque(maxlen=_MOST_LAID)
-        self._whole: tuple[tuple[Laid, ...], ArenaState] | None = None
+        self._lock = threading.Lock()
+        self._unread: list[Packet] = []
+        self._inbox: Inbox | None = None
         self._newest: ArenaSight | None = None
         self._was_given = True
         self._heard_us: int | None = None
         self._net = Net(connect=endpoint)
 
     def __enter__(self) -> Self:
-        self._net.hear(self._topics.told(), self._hear)
+        self._net.hear([self._topics.assign], self._hear)
+        self._inbox = self._net.inbox(self._topics.everything, _MOST_UNREAD)
         self._ask()
         return self
 
@@ -82,8 +82,8 @@ class ArenaView(Closing):
     @property
     def newest(self) -> ArenaSight | None:
         """What is seen now; None before the first image."""
-        with self._changed:
-            self._read()
+        with self._lock:
+            self._look()
             return self._newest
 
     @property
@@ -110,60 +110,62 @@ class ArenaView(Closing):
 
     def wait(self, timeout_s: float = 0.5) -> ArenaSight | None:
         """Return the newest image that was not returned yet, waiting for it; None if none comes."""
-        self._ask()
-        with self._changed:
-            self._changed.wait_for(self._has_news, timeout_s)
-            self._read()
+        end_s = time.monotonic() + timeout_s
+        while True:
+            self._ask()
+            sight = self._news()
+            rest_s = end_s - time.monotonic()
+            if sight is not None or rest_s <= 0:
+                return sight
+            time.sleep(min(_LOOK_S, rest_s))
+
+    def _news(self) -> ArenaSight | None:
+        with self._lock:
+            self._look()
             if self._was_given:
                 return None
             self._was_given = True
             return self._newest
 
-    def _has_news(self) -> bool:
-        return self._whole is not None or not self._was_given
-
-    def _hear(self, topic: str, packet: bytes) -> None:
-        """Take a packet, in a thread of the net."""
+    def _hear(self, _topic: str, packet: bytes) -> None:
+        """Take an answer or a beat, in a thread of the net."""
         now = self._clock()
-        if topic == self._topics.state:
-            self._hear_of_image(packet, now)
-        elif topic == self._topics.assign:
-            self._hear_of_session(packet, now)
-            self._ask()
-        else:
-            self._coming.append((topic, packet, now))
-
-    def _hear_of_session(self, packet: bytes, now: int) -> None:
-        with self._changed:
+        with self._lock:
             if self._onlooker.hear(packet, "host", now) is not None:
                 self._heard_us = now
+        self._ask()
 
-    def _hear_of_image(self, packet: bytes, now: int) -> None:
-        """Replace what was laid aside of an older image, where this end of one is genuine."""
-        with self._changed:
-            heard = self._onlooker.hear(packet, "arena", now)
-            if heard is not None and isinstance(heard[1], ArenaState):
-                self._heard_us = now
-                self._whole = tuple(self._coming), heard[1]
-                self._coming.clear()
-                self._changed.notify_all()
-
-    def _read(self) -> None:
-        """Read the packets of the newest image, where that was not done yet."""
-        if self._whole is None:
+    def _look(self) -> None:
+        """Read the newest image that has come whole since the last look."""
+        if self._inbox is None:
             return
-        packets, end = self._whole
-        self._whole = None
-        for topic, packet, came_us in packets:
+        end = self._topics.state
+        came = [one for one in self._inbox.all(_MOST_UNREAD) if one[0] == end or is_told(one[0])]
+        self._unread = [*self._unread, *came][-_MOST_UNREAD:]
+        ends = [n for n, (topic, _) in enumerate(self._unread) if topic == end]
+        for number in reversed(range(len(ends))):
+            begin = ends[number - 1] + 1 if number else 0
+            if self._read(self._unread[begin : ends[number]], self._unread[ends[number]][1]):
+                break
+        self._unread = self._unread[ends[-1] + 1 :] if ends else self._unread
+
+    def _read(self, packets: list[Packet], end: bytes) -> bool:
+        """Read the packets of one image, if its end is genuine; say whether it is."""
+        now = self._clock()
+        heard = self._onlooker.hear(end, "arena", now)
+        if heard is None or not isinstance(heard[1], ArenaState):
+            return False
+        for topic, packet in packets:
             sender: Sender = "arena" if topic.endswith("/pose") else "host"
-            heard = self._onlooker.hear(packet, sender, came_us)
-            if heard is not None:
-                self._gathering.add(heard[0], robot_of(topic), heard[1])
-        self._newest = self._gathering.add(ARENA_ID, "", end)
-        self._was_given = False
+            told = self._onlooker.hear(packet, sender, now)
+            if told is not None:
+                self._gathering.add(told[0], robot_of(topic), told[1])
+        self._newest = self._gathering.add(ARENA_ID, "", heard[1])
+        self._heard_us, self._was_given = now, False
+        return True
 
     def _ask(self) -> None:
-        with self._changed:
+        with self._lock:
             hello = self._onlooker.due(self._clock())
         if hello is not None:
             self._net.tell(self._topics.hello, hello)
