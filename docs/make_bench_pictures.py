@@ -3,7 +3,7 @@
     python docs/make_bench_pictures.py results.json
 
 draws what the file holds, as `tagmetry bench --json` writes it. Where there is no such file,
-everything is measured first, case by case into that file: a quarter of an hour. With TAGMETRY_DATA
+everything is measured first, case by case into that file: twenty minutes. With TAGMETRY_DATA
 the real pictures are measured too. Peers that are not installed are left out; one that crashes or
 does not answer says so in its cells.
 """

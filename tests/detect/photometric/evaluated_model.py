@@ -15,7 +15,9 @@ _NO_NOISE_LIMIT = 1e9  # so that all weights are 1
 _NO_GREY = np.zeros((1, 1), dtype=np.uint8)
 
 
-def evaluated(fit: Array, ink: Array, places: Array, edges: int) -> tuple[Array, Array]:
+def evaluated(
+    fit: Array, ink: Array, places: Array, edges: int, half_px: float = _LARGE_PX
+) -> tuple[Array, Array]:
     """Return the grey values of places, (n,), and their derivatives by the fit, (n, 24)."""
     count = len(places)
     room = row.new_room()
@@ -29,7 +31,7 @@ def evaluated(fit: Array, ink: Array, places: Array, edges: int) -> tuple[Array,
     values, by_fit = [], []
     for block in pixels:
         room[: row.READ] = block
-        evaluate(room, equations, narrowed(fit, _LARGE_PX), edges, _NO_NOISE_LIMIT, len(fit))
+        evaluate(room, equations, narrowed(fit, half_px), edges, _NO_NOISE_LIMIT, len(fit))
         lines = equations.reshape(row.MOST_NUMBERS, row.LANES)[:, : row.BLOCK].astype(np.float64)
         values.append(-lines[0])
         by_fit.append(lines[1 : 1 + len(fit)].T)

@@ -68,6 +68,31 @@ def test_a_blur_along_the_diagonal() -> None:
         assert white == pytest.approx(1 - on_black, abs=0.006)
 
 
+def test_a_sharp_edge_is_seen_by_square_pixels() -> None:
+    """An edge along the rows, blur 0.3 px: the integral of a bell over a pixel, exactly."""
+    half_px, blur_px = 20.0, 0.3
+    ink = np.ones((6, 6))
+    ink[:, 3:] = 0.0
+    fit = np.zeros(COUNT)
+    fit[[0, 4]] = half_px / 8  # cells of 8 px
+    fit[[2, 5]] = 3.0
+    fit[BLACK : BLACK + 2] = 0.25, 0.75
+    fit[[BLUR, BLUR + 2]] = (blur_px**2 + 1 / 12) / half_px**2
+    past_px = np.linspace(-1.2, 1.2, 49)
+    places = np.stack([past_px / half_px, np.full(49, -0.2)], axis=1)
+
+    def integral(z: np.ndarray) -> np.ndarray:
+        return z * ndtr(z) + np.exp(-0.5 * z**2) / np.sqrt(2 * np.pi)
+
+    ahead, behind = (integral((past_px + side_px) / blur_px) for side_px in (0.5, -0.5))
+    expected = 1 - blur_px * (ahead - behind)
+    square, bell = (
+        (evaluated(fit, ink, places, 1, one_px)[0] / 255 - 0.25) / 0.5 for one_px in (half_px, 1e4)
+    )
+    assert np.abs(square - expected).max() < 0.004
+    assert np.abs(bell - expected).max() > 0.008
+
+
 def fit_of(corners: np.ndarray) -> np.ndarray:
     cells = np.array([[8.0, 0, QUIET_CELLS], [0, 8.0, QUIET_CELLS], [0, 0, 1.0]])
     G = cells @ np.linalg.inv(square_to_quad(corners))
