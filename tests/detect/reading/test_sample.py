@@ -55,7 +55,7 @@ def test_steps_are_outside_less_inside() -> None:
     steps = np.empty(40)
     write_steps(picture, square_px, 2.0, new_room(80), steps)
     np.testing.assert_array_equal(steps, 150.0)
-    write_steps(picture, square_px[[1, 2, 3, 0]] + [5.0, 0], 2.0, new_room(80), steps)
+    write_steps(picture, square_px[[1, 2, 3, 0]] + np.array([5.0, 0]), 2.0, new_room(80), steps)
     np.testing.assert_array_equal(
         steps.reshape(4, 10).mean(axis=1) > 100, [False, True, False, True]
     )
