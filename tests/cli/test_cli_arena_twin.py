@@ -81,7 +81,7 @@ def test_files_that_are_no_controllers(tmp_path, capsys, content, told):
     [
         (["--controller", "dance"], "there is no scenario 'dance'"),
         (["--controller", "missing.py"], "expected a Python file"),
-        (["--picture", "ways.jpg"], "the drawing is a PNG"),
+        (["--picture", "ways.jpg"], "the picture is a PNG"),
         (["--record", "run.bag"], "ends in .mcap"),
         (["--on-board"], "--on-board needs a controller's file, leader_follower is a scenario"),
         (["--program", "0=./robot"], "give --processes as well"),

@@ -88,7 +88,7 @@ def test_refuses_to_draw_nothing(tmp_path: Path) -> None:
         (["--images", "a.png", "--case", "none"], "leave out --case and --real"),
         (["--images", "a.png", "--family", "tag99"], "unknown marker family"),
         (["--compare", "missing.json"], "missing.json: No such file"),
-        (["--picture", "out.gif"], "ends in .png, found out.gif"),
+        (["--picture", "out.gif"], "the picture is a PNG"),
         (["--threads", "0"], "--threads"),
         (["--json", "missing/out.json"], "there is no folder missing"),
     ],

@@ -90,14 +90,10 @@ def run(  # noqa: PLR0913 (each argument is an option)
 
 def _follow(results: "Generator[ArenaResult]") -> None:
     """Take all results, and say once what a person must know."""
-    from tagmetry.cli.interrupts import held_back
+    from tagmetry.cli.interrupts import whole
 
     told: set[str] = set()
-    while True:
-        with held_back():
-            result = next(results, None)
-        if result is None:
-            return
+    for result in whole(results):
         _warn(result, told)
 
 

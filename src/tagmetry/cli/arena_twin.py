@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from tagmetry.cli.options import check_png
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -62,7 +64,7 @@ def twin(  # noqa: PLR0913 (each argument is an option)
     from tagmetry.pipeline.arena_twin import TwinArena
     from tagmetry.pipeline.arena_twin.summary import Summing
 
-    _check_drawing(picture)
+    check_png(picture)
     scenario = _scenario(controller, robots, delay, loss, seed)
     file = Path(controller) if on_board else None
     scenario = manned(scenario, file, program or [], processes=processes)
@@ -110,18 +112,12 @@ def _picture_eye(scenario: "Scenario") -> "PictureEye":
 
 
 def _run(arena: "TwinArena", seconds: float) -> "Iterator[Moment]":
-    """Give all moments, under a progress bar where a person watches."""
-    from tagmetry.cli.interrupts import held_back
+    """Return all moments, under a progress bar where a person watches."""
+    from tagmetry.cli.interrupts import whole
     from tagmetry.cli.progress import counted
 
     count = round(seconds * arena.scenario.image_rate_hz)
-    moments = counted(arena.run(seconds), count, "simulating")
-    while True:
-        with held_back():
-            moment = next(moments, None)
-        if moment is None:
-            return
-        yield moment
+    return whole(counted(arena.run(seconds), count, "simulating"))
 
 
 def _recorder(stack: ExitStack, path: Path | None) -> "Recorder | None":
@@ -170,13 +166,6 @@ def _tell_stability(scenario: "Scenario") -> None:
     )
     report = stability(setting, diameter_m=twin.robot.diameter_m)
     typer.echo("\n".join(stability_lines(report)))
-
-
-def _check_drawing(path: Path | None) -> None:
-    from tagmetry.errors import InputError
-
-    if path is not None and path.suffix.lower() != ".png":
-        raise InputError(f"{path}: the drawing is a PNG; name it like ways.png")
 
 
 def _draw(path: Path, scenario: "Scenario", worlds: "list[WorldState]", title: str) -> None:

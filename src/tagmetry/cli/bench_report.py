@@ -11,25 +11,18 @@ _WIDTH = 100  # of the tables where no terminal says another
 
 def check_outputs(json: Path | None, picture: Path | None) -> None:
     """Raise InputError when a file could not be written in the end."""
-    from tagmetry.errors import InputError
+    from importlib.util import find_spec
+
+    from tagmetry.cli.options import check_png
+    from tagmetry.errors import InputError, MissingExtraError
 
     for path in (json, picture):
         if path is not None and not path.absolute().parent.is_dir():
             raise InputError(
                 f"cannot write {path}: there is no folder {path.parent}; create it first"
             )
-    if picture is not None:
-        _check_picture(picture)
-
-
-def _check_picture(path: Path) -> None:
-    from importlib.util import find_spec
-
-    from tagmetry.errors import InputError, MissingExtraError
-
-    if path.suffix.lower() != ".png":
-        raise InputError(f"expected --picture with a name that ends in .png, found {path}")
-    if find_spec("matplotlib") is None:
+    check_png(picture)
+    if picture is not None and find_spec("matplotlib") is None:
         raise MissingExtraError("a picture of the results", "report")
 
 

@@ -4,6 +4,9 @@ import signal
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TypeVar
+
+T = TypeVar("T")
 
 
 @contextmanager
@@ -30,3 +33,13 @@ def held_back() -> Iterator[None]:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if pending:
         raise KeyboardInterrupt
+
+
+def whole(items: Iterator[T]) -> Iterator[T]:
+    """Give items, a Ctrl-C held back while the next one is made."""
+    while True:
+        with held_back():
+            item = next(items, None)
+        if item is None:
+            return
+        yield item
