@@ -13,7 +13,6 @@ import resource
 import subprocess
 import tempfile
 import time
-from collections import deque
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -30,7 +29,7 @@ from tagmetry.geometry.arrays import AnyPixels
 from tagmetry.lab.rigs.crowd import crowd, film
 from tagmetry.lab.rigs.overhead import CAMERA, FAMILY, T_WORLD_CAMERA
 from tagmetry.link import Host
-from tagmetry.pipeline.arena import ArenaMeasurement, ArenaResult, Turning, run_arena
+from tagmetry.pipeline.arena import ArenaMeasurement, ArenaResult, StageTimes, Turning, run_arena
 from tagmetry.pipeline.arena.linked import LinkTaker
 
 _LENGTH = 6  # of the film, which is played there and back
@@ -109,18 +108,20 @@ class Tally:
     """What a run gave, image by image."""
 
     to_packet_s: list[float] = field(default_factory=list)
-    newest: deque[ArenaResult] = field(default_factory=lambda: deque(maxlen=1000))
+    times: list[StageTimes] = field(default_factory=list)
+    seen: list[int] = field(default_factory=list)
 
     def add(self, result: ArenaResult) -> None:
         self.to_packet_s.append(time.monotonic() - result.taken_s)
-        self.newest.append(result)
+        self.times.append(result.times)
+        self.seen.append(len(result.step.seen))
 
     def told(self) -> str:
         """Return the times in words."""
         middle, tail, most = np.quantile(1000 * np.array(self.to_packet_s), [0.5, 0.99, 1.0])
         names = ("detect_s", "follow_s", "tell_s", "drive_s")
         medians_ms = [
-            1000 * np.median([getattr(one.times, name) for one in self.newest]) for name in names
+            1000 * np.median([getattr(one, name) for one in self.times]) for name in names
         ]
         stages = ", ".join(
             f"{name[:-2]} {ms:.2f}" for name, ms in zip(names, medians_ms, strict=True)
@@ -147,7 +148,7 @@ def soak(count: int, asked: argparse.Namespace) -> str:
             tally.add(result)
         busy = (time.process_time() - began_s) / asked.seconds
         linked, heard = sum(one.is_linked for one in host.links()), len(host.take())
-    seen, done = np.mean([len(one.step.seen) for one in tally.newest]), len(tally.to_packet_s)
+    seen, done = np.mean(tally.seen), len(tally.seen)
     return (
         f"{count} robots, {seen:.1f} seen, {linked} linked, {heard} messages kept: "
         f"{done} images at {done / asked.seconds:.1f} per s, {images.dropped} dropped; "
