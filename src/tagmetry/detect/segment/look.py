@@ -11,9 +11,7 @@ from tagmetry.detect.segment.dark import Bits, Places, dark_bits, row_shift, thi
 from tagmetry.detect.segment.outline import (
     Cracks,
     at_level,
-    bit,
     box,
-    mark_above,
     midway,
     steps,
     walk,
@@ -32,7 +30,6 @@ _FLATTEST = 0.12  # height of a box by its width, or the reverse
 _PIXELS_PER_START = 16  # an image of more starts is taken for noise, and its gate raised
 _COARSER = 1.6
 _MOST_GATE = 255.0
-_ONE = np.uint64(1)
 
 
 class _Desk(NamedTuple):
@@ -86,28 +83,15 @@ def dark_squares(grey: GreyPixels, tiles: Tiles, look: Look, least_px: float) ->
         bits = dark_bits(grey, levels)
         begins = starts(bits, grey, ranges, look.step_share, most)
         if len(begins) < most:
-            small = np.zeros_like(bits)
-            found = _outlined(bits, grey, levels, begins, small, least_px, longest_px)
+            found = _outlined(bits, grey, levels, begins, least_px, longest_px)
             if not look.thinned:
                 return found
             thin = thinned(bits)
             begins = starts(thin, grey, ranges, look.step_share, most)
-            begins = _elsewhere(begins, small)
-            more = _outlined(thin, grey, _NO_LEVELS, begins, small, least_px, longest_px)
+            more = _outlined(thin, grey, _NO_LEVELS, begins, least_px, longest_px)
             return np.concatenate([found, more])
         gate *= _COARSER
     return np.empty((0, 4, 2))
-
-
-@njit(cache=True, nogil=True)
-def _elsewhere(begins: Places, small: Bits) -> Places:
-    """Return which starts of thinned outlines do not lie beneath the outline of a small area."""
-    marks, up = small.reshape(-1), np.uint64(8 * small.shape[1])
-    keep = np.empty(len(begins), np.bool_)
-    for i in range(len(begins)):
-        above = begins[i] - up
-        keep[i] = not (bit(marks, above - _ONE) | bit(marks, above) | bit(marks, above + _ONE))
-    return begins[keep]
 
 
 @njit(cache=True, nogil=True)
@@ -116,7 +100,6 @@ def _outlined(
     grey: GreyPixels,
     levels: GreyPixels,
     begins: Places,
-    small: Bits,
     least_px: float,
     longest_px: int,
 ) -> Array:
@@ -126,14 +109,11 @@ def _outlined(
     walked = np.empty(longest_px, np.uint64)
     desk = _Desk(np.empty((2 * _POINTS, 2)), np.empty(5, np.int64), np.empty((2, 4)))
     flat, shift, row_px = bits.reshape(-1), row_shift(bits), 8 * bits.shape[1]
-    marks = small.reshape(-1)
     onward, backward = steps(row_px, 1), steps(row_px, -1)
     for start in begins:
         begin, end = walk(flat, np.uint64(row_px), onward, backward, start, walked)
         cracks = walked[begin:end]
-        if len(cracks) < 4 * least_px:
-            mark_above(cracks, marks)
-        elif _may_be_a_square(cracks, shift, least_px):
+        if len(cracks) >= 4 * least_px and _may_be_a_square(cracks, shift, least_px):
             square = _four_sided(cracks, shift, grey, levels, desk, corners[count])
             count += square and _least_side(corners[count]) >= least_px
     return corners[:count]

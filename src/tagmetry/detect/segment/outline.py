@@ -97,23 +97,14 @@ def _step(
     bits: Bits, cases: Steps, crack: np.uint64, ahead: np.uint64, outward: np.uint64
 ) -> tuple[np.uint64, np.uint64, np.uint64]:
     """Return the next crack, and the places of the pixel ahead then and of that outward of it."""
-    case = (crack & _THREE) << _TWO | bit(bits, ahead) << _ONE | bit(bits, outward)
+    case = (crack & _THREE) << _TWO | _bit(bits, ahead) << _ONE | _bit(bits, outward)
     place = crack >> _TWO
     return crack + cases[case, _TO], place + cases[case, _AHEAD], place + cases[case, _OUTWARD]
 
 
 @njit(cache=True, nogil=True)
-def bit(bits: Bits, place: np.uint64) -> np.uint64:
-    """Return the bit at a place, 0 or 1."""
+def _bit(bits: Bits, place: np.uint64) -> np.uint64:
     return np.uint64(bits[place >> _THREE] >> (place & _SEVEN) & _ONE)
-
-
-@njit(cache=True, nogil=True)
-def mark_above(cracks: Cracks, marks: Bits) -> None:
-    """Set the bits of pixels whose upper side is one of an outline's cracks."""
-    for i in range(len(cracks)):
-        place = cracks[i] >> _TWO
-        marks[place >> _THREE] |= np.uint64(cracks[i] & _THREE == 0) << (place & _SEVEN)
 
 
 @njit(cache=True, nogil=True)
