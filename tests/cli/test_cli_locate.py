@@ -115,6 +115,7 @@ def test_refuses_a_planar_robot_s_camera_that_is_none(text):
 
 
 REFUSED = {
+    ("--picture", "none/way.png"): "there is no folder none; create it first",
     ("--method", "best"): "there is no method 'best'; there are single, mean",
     ("--method", "mean", "--planar", "z=1"): "the method mean cannot make use of gravity",
     ("--method", "filter"): "a filter needs images with times",

@@ -8,6 +8,7 @@ import pytest
 
 from tagmetry.errors import InputError
 from tagmetry.files import replace_file, write_atomically
+from tagmetry.files.atomic import check_destinations
 
 
 def _names(folder: Path) -> list[str]:
@@ -89,6 +90,28 @@ def test_refuses_a_missing_folder(tmp_path: Path) -> None:
 def test_refuses_a_folder(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"cannot write .*: Is a directory"):
         write_atomically(tmp_path, "")
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("none/out", "there is no folder .*none; create it first"),
+        ("folder", "Is a directory"),
+        ("file/out", "Not a directory"),
+    ],
+)
+def test_says_before_the_work_what_cannot_be_written(tmp_path: Path, name: str, why: str) -> None:
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "file").write_text("old")
+    check_destinations(None, tmp_path / "new", tmp_path / "file")
+    with pytest.raises(InputError, match=f"cannot write .*{name}: {why}"):
+        check_destinations(tmp_path / name)
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="a folder of Linux")
+def test_a_folder_that_takes_no_file_is_not_said_to_be_missing() -> None:
+    with pytest.raises(InputError, match=r"cannot write /proc/out\.txt: No such file"):
+        write_atomically(Path("/proc/out.txt"), "")
 
 
 def test_refuses_a_file_as_a_folder(tmp_path: Path) -> None:

@@ -43,7 +43,9 @@ def audit(  # noqa: PLR0913 (each argument is an option)
     from tagmetry.cli.warmup import tell_compiling
     from tagmetry.detect import Detector
     from tagmetry.files import resolve_family
+    from tagmetry.files.atomic import check_destinations
 
+    check_destinations(csv, picture)
     markers = _grid(grid, step, size, height, family, first_id)
     place = _place(at) if at is not None else None
     setup, world = setup_and_world(arena, camera)

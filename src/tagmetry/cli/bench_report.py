@@ -14,13 +14,10 @@ def check_outputs(json: Path | None, picture: Path | None) -> None:
     from importlib.util import find_spec
 
     from tagmetry.cli.options import check_png
-    from tagmetry.errors import InputError, MissingExtraError
+    from tagmetry.errors import MissingExtraError
+    from tagmetry.files.atomic import check_destinations
 
-    for path in (json, picture):
-        if path is not None and not path.absolute().parent.is_dir():
-            raise InputError(
-                f"cannot write {path}: there is no folder {path.parent}; create it first"
-            )
+    check_destinations(json)
     check_png(picture)
     if picture is not None and find_spec("matplotlib") is None:
         raise MissingExtraError("a picture of the results", "report")

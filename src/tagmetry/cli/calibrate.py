@@ -133,12 +133,11 @@ def _measured_m(text: str | None) -> dict[str, float]:
 def _check_outputs(out: Path | None, report: Path | None) -> None:
     """Refuse before the work what could not be written after it."""
     from tagmetry.errors import InputError
+    from tagmetry.files.atomic import check_destinations
 
     if report is not None and report.suffix.lower() not in (".html", ".htm"):
         raise InputError(f"the report is a page: expected a name ending in .html, found {report}")
-    for path in filter(None, (out, report)):
-        if not path.absolute().parent.is_dir():
-            raise InputError(f"cannot write {path}: there is no folder {path.parent}")
+    check_destinations(out, report)
 
 
 def _sightings(sources: list[str], request: "Request") -> "Iterator[Sighting]":

@@ -67,8 +67,10 @@ def measurement(
 
 
 def check_png(picture: Path | None) -> None:
-    """Refuse the name of a picture that is to be written as another format than PNG."""
+    """Refuse a picture that is to be written as another format than PNG, or where none can be."""
     from tagmetry.errors import InputError
+    from tagmetry.files.atomic import check_destinations
 
     if picture is not None and picture.suffix.lower() != ".png":
         raise InputError(f"the picture is a PNG; name it like map.png, got {picture.name[-40:]}")
+    check_destinations(picture)

@@ -16,6 +16,8 @@ from typing import BinaryIO, Literal
 
 from tagmetry.errors import InputError
 
+_NO_FOLDER = "there is no folder {}; create it first"
+
 
 def write_atomically(path: Path, content: bytes | str) -> None:
     """Write a whole file; text becomes UTF-8.
@@ -26,6 +28,21 @@ def write_atomically(path: Path, content: bytes | str) -> None:
     encoded = content.encode() if isinstance(content, str) else content
     with refusing(path), replace_file(path) as file:
         file.write(encoded)
+
+
+def check_destinations(*paths: Path | None) -> None:
+    """Refuse before the work what could not be written after it.
+
+    Raises:
+        InputError: One of the files is a folder, or in a folder that is not there.
+    """
+    for path in filter(None, paths):
+        if path.is_dir():
+            raise InputError(f"cannot write {path}: Is a directory")
+        parent = path.absolute().parent
+        if not parent.is_dir():
+            why = "Not a directory" if parent.exists() else _NO_FOLDER.format(path.parent)
+            raise InputError(f"cannot write {path}: {why}")
 
 
 @contextmanager
@@ -62,9 +79,9 @@ def _opened(path: Path, opened: Path, mode: Literal["wb", "xb"]) -> BinaryIO:
     try:
         return opened.open(mode)
     except FileNotFoundError as error:
-        raise InputError(
-            f"cannot write {path}: there is no folder {opened.parent}; create it first"
-        ) from error
+        if opened.parent.is_dir():  # as /proc says where nothing can be made
+            raise _refusal(path, error) from error
+        raise InputError(f"cannot write {path}: {_NO_FOLDER.format(opened.parent)}") from error
     except OSError as error:
         raise _refusal(path, error) from error
 
