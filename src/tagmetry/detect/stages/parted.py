@@ -17,7 +17,7 @@ from tagmetry.geometry.arrays import Array, BoolArray, GreyPixels, IntArray
 
 _SHARE = 0.5
 _LEAST_TILED_PX = 4
-_DETOUR = 1.5  # an outline's length by the way around its box
+_DETOUR = 1.25  # an outline's length by the way around its box
 
 
 @dataclass(frozen=True, eq=False)
