@@ -5,8 +5,8 @@
 draws what the file holds, as `tagmetry bench --json` writes it. Where there is no such file,
 everything is measured first, case by case into that file: twenty minutes. With TAGMETRY_DATA
 the real pictures are measured too. Run `tagmetry warmup` before: nobody may take more than five
-minutes for his first image, kernels included. Peers that are not installed are left out; one that crashes or
-does not answer says so in its cells.
+minutes for his first image, kernels included. Peers that are not installed are left out; one that
+crashes or does not answer says so in its cells.
 """
 
 import os
