@@ -51,11 +51,6 @@ class OverheadView:
             hits = np.isfinite(scale) & (scale > 0)
         return np.asarray(origin + np.where(hits, scale, np.nan)[..., None] * rays)
 
-    def pixels_of(self, p_world: Array) -> Array:
-        """Return the pixels of world points, shape (..., 2)."""
-        rays = (p_world - self.T_world_camera.translation) @ self.R_world_camera
-        return self.camera.project(rays)
-
     def project(self, p_world: Array) -> tuple[Array, Array]:
         """Return pixels, shape (..., 2), and d(pixel) / d(world point), shape (..., 2, 3)."""
         R_camera_world = self.R_world_camera.T
