@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from cli_command import arguments_of
 
+from tagmetry.cli.main import run
 from tagmetry.record import read_results
 
 COUNT = 5000  # pictures, more than any machine reads meanwhile
@@ -56,6 +57,30 @@ def test_ctrl_c_keeps_what_was_recorded(suffix: str, many: str, tmp_path: Path) 
         count = len(list(read_results(out)))
     assert count - len(lines) in (0, 1)  # the last one may be written and not yet told
     assert sorted(path.name for path in tmp_path.iterdir()) == ["many", out.name]
+
+
+def test_ctrl_c_within_a_compiled_loop_is_one_line_too(
+    small_picture: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    """A loop that Numba compiled wraps whatever a signal raised meanwhile."""
+
+    def interrupt(*_: object) -> None:
+        raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
+
+    monkeypatch.setattr("tagmetry.cli.report.result_lines", interrupt)
+    assert run(["detect", str(small_picture)]) == 130
+    assert capsys.readouterr().err == "tagmetry: interrupted\n"
+
+
+def test_another_fault_of_a_compiled_loop_is_shown_as_it_is(
+    small_picture: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise SystemError("a fault of the program")
+
+    monkeypatch.setattr("tagmetry.cli.report.result_lines", fail)
+    with pytest.raises(SystemError, match="a fault of the program"):
+        run(["detect", str(small_picture)])
 
 
 def test_ctrl_c_leaves_a_whole_video(many: str, tmp_path: Path) -> None:

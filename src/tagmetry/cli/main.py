@@ -112,7 +112,12 @@ def _invoke(arguments: list[str]) -> None:
     ensure_cache_folder()
     command = with_plain_names(typer.main.get_command(app))
     with command.make_context("tagmetry", list(arguments)) as context:
-        command.invoke(context)
+        try:
+            command.invoke(context)
+        except SystemError as error:  # how a compiled loop hands Ctrl-C on
+            if isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
+                raise KeyboardInterrupt from error
+            raise
 
 
 def _refuse_os(error: OSError) -> int:
