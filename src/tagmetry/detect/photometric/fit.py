@@ -13,6 +13,7 @@ from tagmetry.detect.photometric.view import View
 from tagmetry.geometry import Array
 
 _JUDGED = 256  # pixels, about, whose residuals tell the noise
+_VARIED = 400  # pixels, at least, whose residuals tell the variance
 _PRIOR_EXPONENT = 0.7  # of its logarithm
 _PRIOR_BLUR = 1.0  # of its variances, as a share
 _PRIOR_SLOPE = 0.3  # of light, across half a diagonal
@@ -115,7 +116,8 @@ def variance_beside_edges(
     room, equations, squares, slopes2 = view.room, view.room[row.EQUATIONS :], 0.0, 1e-12
     narrow = narrowed(fit, view.frame[2])
     across, downward = row.J + 2 * row.LANES, row.J + 5 * row.LANES  # by a shift of the picture
-    for first in range(0, pixel_count, row.BLOCK):
+    every = 1 + pixel_count // _VARIED
+    for first in range(0, pixel_count, every * row.BLOCK):
         _read(room, view.pixels, first, edges)
         evaluate(room, equations, narrow, edges, noise, SLOPES)
         for p in range(row.BLOCK):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tagmetry.detect.photometric.kernel import kernel
+from tagmetry.detect.photometric.kernel import Narrow, kernel
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 
@@ -17,13 +17,13 @@ def printed(picture: BoolArray) -> Array:
 
 
 @kernel
-def changes(ink: Array) -> Array:
+def changes(ink: Array) -> Narrow:
     """Return the cells, their changes from row to row, column to column, and of both.
 
     Shape (2, 2, m, m): first whether rows, then whether columns are compared.
     """
     cells = len(ink)
-    all_changes = np.zeros((2, 2, cells, cells))
+    all_changes = np.zeros((2, 2, cells, cells), dtype=np.float32)
     for j in range(cells):
         for i in range(cells):
             here, left = ink[j, i], ink[j, max(i - 1, 0)]

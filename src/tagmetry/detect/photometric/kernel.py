@@ -9,6 +9,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 Narrow = NDArray[np.float32]  # what loops over pixels read and write
+Whole = NDArray[np.int32]  # numbers of places, as wide
 f32 = (
     np.float32
 )  # around every number in a loop over pixels: one of 64 bits makes its result so too

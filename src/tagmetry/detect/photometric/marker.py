@@ -28,8 +28,9 @@ from tagmetry.detect.photometric.model import (
     cells_at,
 )
 from tagmetry.detect.photometric.normal import inverse_seen
-from tagmetry.detect.photometric.pixels import MOST_BLOCKS, gather, set_windows
+from tagmetry.detect.photometric.pixels import MOST_BLOCKS, gather
 from tagmetry.detect.photometric.view import View
+from tagmetry.detect.photometric.windows import set_windows
 from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
 
@@ -42,7 +43,7 @@ _COARSE_PIXELS, FINE_PIXELS = 250, 1600
 _COARSE_BESIDE_PX, BESIDE_PX = 1.5, 0.9  # farther pixels say little of an edge
 _COARSE_SPARE_PX, _SPARE_PX = 1.0, 0.2  # that a first guess may be wrong by
 # A round that moves the picture less was the last: of place and levels, of all, of all pixels.
-_ROUGHLY_PX, _NEARLY_PX, SETTLED_PX = 0.15, 0.03, 0.12
+_ROUGHLY_PX, _NEARLY_PX, SETTLED_PX = 0.3, 0.05, 0.12
 _OTHER_BLUR, _OTHER_EXPONENT = 0.5, 0.2  # its variance as a share; its logarithm
 _NEAR_PX = 0.4  # that a first guess may be wrong by where pixels are chosen only once
 _FALLING_HALF_PX = 21.0
@@ -226,7 +227,7 @@ def _with_windows(view: View, ink: Array, fit: Array, count: int, spare_px: floa
     blur, fineness = blur_in_cells(fit)
     edges = int(np.ceil(_SIGHT * blur + 2 * spare_px * fineness / view.frame[2]))
     edges = min(max(edges, 1), row.MOST_EDGES, len(ink) - 1)
-    set_windows(view, fit, count, changes(ink), edges)
+    set_windows(view.pixels, count, changes(ink), edges)
     return edges
 
 

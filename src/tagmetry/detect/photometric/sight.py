@@ -20,6 +20,17 @@ def trusted_cells(fineness: f32) -> f32:
 
 
 @kernel
+def is_trusted(outside: f32, fineness2: f32) -> bool:
+    """Say whether so many cells outside the picture may be trusted, by the square of the above."""
+    spare, far = f32(1) - outside, outside > f32(0)
+    clear = (outside < _REACH_CELLS) | (
+        (_CLEAR_PX * _CLEAR_PX * fineness2 < spare * spare) & (spare > f32(0))
+    )
+    near = outside * outside < _REACH_PX * _REACH_PX * fineness2
+    return bool((clear & near) | ~far)
+
+
+@kernel
 def limits(fit: Array, half_px: float, cells: int) -> tuple[float, float]:
     """Return the first and last cell coordinate that is looked at."""
     outside = min(_SPARE * float(trusted_cells(f32(1.0 / cell_px(fit, half_px)))), 1.0)
