@@ -8,12 +8,14 @@ and a bowed one no honesty.
 
 import numpy as np
 
+from tagmetry.detect.photometric.kernel import kernel
 from tagmetry.geometry import Array
 
 _DOUBT = 2.0  # deviations by which the bows must exceed their errors to be believed at all
-_KINDS = (slice(0, 4), slice(4, 5))  # curved alike everywhere; a barrel around the marker itself
+_LEAST_VARIANCE = 1e-18
 
 
+@kernel
 def believed(
     corners: Array, covariances: Array, half_px: Array, bows: Array
 ) -> tuple[Array, Array]:
@@ -25,24 +27,49 @@ def believed(
         half_px: Half diagonals of the markers, shape (n,).
         bows: Shape (n, 5).
     """
-    spread2 = np.concatenate(
-        [_spread2(bows[:, kind], covariances, half_px, kind) for kind in _KINDS], axis=1
-    )
-    by_bows = covariances[:, :, 8:]
-    total = by_bows[:, 8:] + spread2[:, :, None] * np.eye(5)
-    gain = np.linalg.solve(total, np.swapaxes(by_bows, 1, 2)).swapaxes(1, 2)
-    moved = (gain @ bows[:, :, None])[:, :8, 0]
-    left = covariances - gain @ np.swapaxes(by_bows, 1, 2)
-    return corners - moved.reshape(-1, 4, 2), left[:, :8, :8]
+    spread2 = np.zeros(bows.shape)
+    _write_spread2(spread2, bows, covariances, half_px, (0, 4))  # curved alike everywhere
+    _write_spread2(spread2, bows, covariances, half_px, (4, 5))  # a barrel around the marker itself
+    moved, left = corners.copy(), np.empty((len(corners), 8, 8))
+    for k in range(len(corners)):
+        joint, numbers = covariances[k].copy(), np.zeros(13)
+        numbers[8:] = bows[k]
+        for bow in range(5):
+            _expect_none(numbers, joint, 8 + bow, spread2[k, bow])
+        moved[k] += numbers[:8].reshape(4, 2)
+        left[k] = joint[:8, :8]
+    return moved, left
 
 
-def _spread2(bows: Array, covariances: Array, half_px: Array, kind: slice) -> Array:
-    """Return the variance of one kind of bow in this image, per marker, shape like `bows`."""
-    own = slice(8 + kind.start, 8 + kind.stop)
-    variance = np.maximum(np.einsum("nii->ni", covariances[:, own, own]), 1e-18)
-    scale = half_px[:, None] ** (1 + kind.start // 4)  # bows grow with the marker
-    weight = scale**2 / variance
-    squares, count = (bows**2 / variance).sum(), bows.size
-    if squares < count + _DOUBT * np.sqrt(2 * count):
-        return np.zeros_like(bows)
-    return np.asarray((squares - count) / weight.sum() * scale**2 * np.ones_like(bows))
+@kernel
+def _expect_none(numbers: Array, joint: Array, which: int, spread2: float) -> None:
+    """Change numbers and their covariance by what a number being 0, but for a spread, says."""
+    off, total = numbers[which], joint[which, which] + spread2
+    by_it = joint[:, which].copy()
+    for a in range(len(numbers)):
+        numbers[a] -= by_it[a] * off / total
+        for b in range(len(numbers)):
+            joint[a, b] -= by_it[a] * by_it[b] / total
+
+
+@kernel
+def _write_spread2(
+    spread2: Array, bows: Array, covariances: Array, half_px: Array, kind: tuple[int, int]
+) -> None:
+    """Write the variance of one kind of bow in this image, per marker; leave 0 if it is none."""
+    first, last = kind
+    squares, weights, count = 0.0, 0.0, len(bows) * (last - first)
+    for k in range(len(bows)):
+        for bow in range(first, last):
+            variance = max(covariances[k, 8 + bow, 8 + bow], _LEAST_VARIANCE)
+            squares += bows[k, bow] ** 2 / variance
+            weights += _growth2(half_px[k], first) / variance
+    if not squares < count + _DOUBT * np.sqrt(2 * count):
+        for k in range(len(bows)):
+            spread2[k, first:last] = (squares - count) / weights * _growth2(half_px[k], first)
+
+
+@kernel
+def _growth2(half_px: float, first: int) -> float:
+    """Return how bows grow with the marker, squared; a barrel's twice as fast."""
+    return float(half_px ** (2 if first == 0 else 4))

@@ -47,7 +47,7 @@ _ROUGHLY_PX, _NEARLY_PX, SETTLED_PX = 0.3, 0.05, 0.12
 _OTHER_BLUR, _OTHER_EXPONENT = 0.5, 0.2  # its variance as a share; its logarithm
 _NEAR_PX = 0.4  # that a first guess may be wrong by where pixels are chosen only once
 _FALLING_HALF_PX = 21.0
-_SIGHT = 6.0  # blurs, both sides of a pixel together
+_COARSE_SIGHT, _SIGHT = 4.5, 6.0  # blurs, both sides of a pixel together
 
 
 @kernel
@@ -136,7 +136,7 @@ def _fit_as_before(view: View, ink: Array, fit: Array, numbers: int) -> tuple[fl
         ink = with_surround(view.grey, ink, fit, view.frame, view.lens)
     before = fit.copy()
     count = gather(view, ink, fit, BESIDE_PX, FINE_PIXELS)
-    edges = _with_windows(view, ink, fit, count, _NEAR_PX)
+    edges = _with_windows(view, ink, fit, count, _SIGHT, _NEAR_PX)
     every = 1 + count // (2 * _COARSE_PIXELS)
     noise, _, _, _ = fit_pixels(view, fit, count, edges, SLOPES, _ROUGHLY_PX, _FIRST_NOISE, every)
     far_px = picture_moved_px(before, fit - before, view.frame[2])
@@ -163,7 +163,7 @@ def _fit_anew(view: View, ink: Array, fit: Array, numbers: int) -> tuple[float, 
     if reaches_edges(fit):
         ink = with_surround(view.grey, ink, fit, view.frame, view.lens)
     count = gather(view, ink, fit, BESIDE_PX, FINE_PIXELS)
-    edges = _with_windows(view, ink, fit, count, _SPARE_PX)
+    edges = _with_windows(view, ink, fit, count, _SIGHT, _SPARE_PX)
     return _finely(view, fit, count, edges, noise, numbers)
 
 
@@ -175,7 +175,7 @@ def _fit_coarsely(view: View, ink: Array, fit: Array) -> tuple[float, float]:
     if count < _LEAST_PIXELS:
         return 0.0, np.inf
     _set_levels(fit, ink, view.pixels, count)
-    edges = _with_windows(view, ink, fit, count, _COARSE_SPARE_PX)
+    edges = _with_windows(view, ink, fit, count, _COARSE_SIGHT, _COARSE_SPARE_PX)
     noise, moved_px = _FIRST_NOISE, np.inf
     for numbers in (SLOPES, FALL):
         settled_px = _ROUGHLY_PX if numbers == SLOPES else _NEARLY_PX
@@ -219,13 +219,15 @@ def _write_corners(
 
 
 @step
-def _with_windows(view: View, ink: Array, fit: Array, count: int, spare_px: float) -> int:
+def _with_windows(
+    view: View, ink: Array, fit: Array, count: int, sight: float, spare_px: float
+) -> int:
     """Write what part of the picture every pixel sees; return how many edges of each direction.
 
-    A pixel may be `spare_px` from where the fit has it.
+    It sees so many blurs wide, and may be `spare_px` from where the fit has it.
     """
     blur, fineness = blur_in_cells(fit)
-    edges = int(np.ceil(_SIGHT * blur + 2 * spare_px * fineness / view.frame[2]))
+    edges = int(np.ceil(sight * blur + 2 * spare_px * fineness / view.frame[2]))
     edges = min(max(edges, 1), row.MOST_EDGES, len(ink) - 1)
     set_windows(view.pixels, count, changes(ink), edges)
     return edges

@@ -4,9 +4,9 @@ import numpy as np
 
 from tagmetry.detect.photometric import block as row
 from tagmetry.detect.photometric.ink import QUIET_CELLS
-from tagmetry.detect.photometric.kernel import Narrow, Whole, f32, kernel
+from tagmetry.detect.photometric.kernel import Narrow, Whole, f32, kernel, step
 from tagmetry.detect.photometric.model import cell_px
-from tagmetry.detect.photometric.sight import columns_in_sight, is_trusted, rows_in_sight
+from tagmetry.detect.photometric.sight import columns_in_sight, is_trusted, limits_of, rows_in_sight
 from tagmetry.detect.photometric.straight import bend_of, straighten
 from tagmetry.detect.photometric.view import View
 from tagmetry.geometry import Array
@@ -29,28 +29,33 @@ def gather(view: View, ink: Array, fit: Array, beside_px: float, wanted: int) ->
         beside_px: An edge is seen by pixels this near.
         wanted: About how many pixels to choose at most.
     """
-    frame, cells, edges = view.frame, len(ink), _edges_at_corners(ink)
+    frame, (height, width) = view.frame, view.grey.shape
+    cells, edges = len(ink), _edges_at_corners(ink)
     every = max(1, int(np.ceil(_beside_edges(ink, fit, frame[2], beside_px) / wanted)))
     rule = beside_px, _flat_among(cell_px(fit, frame[2]) * cells, every, wanted)
     narrow, bend = (fit.astype(np.float32), view.lens.astype(np.float32)), bend_of(view.lens)
-    first_row, last_row = rows_in_sight(fit, frame, cells, view.grey.shape[0], bend)
+    limits, kept = (
+        limits_of(fit, frame[2], cells, beside_px),
+        np.empty(row.BLOCK + 1, dtype=np.int32),
+    )
+    first_row, last_row = rows_in_sight(fit, frame, limits, height, bend)
     count, lane, turn = 0, 0, 0
     for image_row in range(first_row, last_row + 1):
-        column, right = columns_in_sight(fit, frame, cells, view.grey.shape[1], bend, image_row)
+        column, right = columns_in_sight(fit, frame, limits, width, bend, image_row)
         column += int(every * ((image_row * _GOLDEN) % 1.0))
         while column <= right:
             taken = min(row.BLOCK - lane, 1 + (right - column) // every)
             _take(view, image_row, column, every, taken, lane)
             column, lane = column + taken * every, lane + taken
             if lane == row.BLOCK:
-                count = _chosen(view, narrow, edges, rule, turn, lane, count)
+                count = _chosen(view, narrow, edges, rule, turn, lane, count, kept)
                 lane, turn = 0, turn + row.BLOCK - 3
-    count = _chosen(view, narrow, edges, rule, turn, lane, count)
+    count = _chosen(view, narrow, edges, rule, turn, lane, count, kept)
     _end(view.pixels, count)
     return count
 
 
-@kernel
+@step
 def _take(view: View, image_row: int, column: int, every: int, count: int, lane: int) -> None:
     """Write place and grey value of some pixels of a row of the image, from a lane on."""
     room, (middle_x, middle_y, half_px) = view.room[lane:], view.frame
@@ -70,7 +75,7 @@ def _end(pixels: Narrow, count: int) -> None:
         block[row.FIRST_U + at], block[row.FIRST_V + at] = 0.0, 0.0
 
 
-@kernel
+@step
 def _chosen(
     view: View,
     narrow: tuple[Narrow, Narrow],
@@ -79,6 +84,7 @@ def _chosen(
     turn: int,
     lanes: int,
     count: int,
+    kept: Whole,
 ) -> int:
     """Append those pixels of the room that tell; return how many there are now.
 
@@ -89,7 +95,7 @@ def _chosen(
     straighten(view.room, lens)
     cells, pixel = int(np.sqrt(len(edges))), f32(1.0 / half_px)
     _look(view.room, fit, cells, (f32(beside_px) * pixel, pixel), flat, turn)
-    return _keep(view.room, lanes, edges, view.pixels, count)
+    return _keep(view.room, lanes, edges, kept, view.pixels, count)
 
 
 @kernel
@@ -176,9 +182,9 @@ def _fineness2(across: f32, along: f32, down: f32) -> f32:
 
 
 @kernel
-def _keep(room: Narrow, lanes: int, edges: Whole, pixels: Narrow, count: int) -> int:
+def _keep(room: Narrow, lanes: int, edges: Whole, kept: Whole, pixels: Narrow, count: int) -> int:
     """Append the pixels of a block that tell; return how many there are now."""
-    kept, chosen = np.empty(row.BLOCK + 1, dtype=np.int32), 0
+    chosen = 0
     for p in range(lanes):
         here = edges[int(room[row.CORNER + p])] & int(room[row.MEETING + p])
         kept[chosen] = p

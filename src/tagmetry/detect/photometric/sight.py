@@ -3,13 +3,14 @@
 import numpy as np
 
 from tagmetry.detect.photometric.ink import QUIET_CELLS
-from tagmetry.detect.photometric.kernel import f32, kernel
+from tagmetry.detect.photometric.kernel import f32, kernel, step
 from tagmetry.detect.photometric.model import cell_px
 from tagmetry.geometry import Array
 
 _REACH_PX = f32(3.0)  # how far outside the picture pixels are looked at, at most
 _REACH_CELLS = f32(0.3)  # and at least
 _CLEAR_PX = f32(1.5)  # this much of the quiet zone may be blurred by what lies behind it
+_PLAIN_PX = 0.7  # of plain paper around them
 _SPARE = 1.3  # cells are smaller where the marker is farther
 
 
@@ -31,21 +32,23 @@ def is_trusted(outside: f32, fineness2: f32) -> bool:
 
 
 @kernel
-def limits(fit: Array, half_px: float, cells: int) -> tuple[float, float]:
-    """Return the first and last cell coordinate that is looked at."""
-    outside = min(_SPARE * float(trusted_cells(f32(1.0 / cell_px(fit, half_px)))), 1.0)
+def limits_of(fit: Array, half_px: float, cells: int, beside_px: float) -> tuple[float, float]:
+    """Return the first and last cell coordinate that is looked at, for edges seen so far away."""
+    fineness = 1.0 / cell_px(fit, half_px)
+    outside = min(float(trusted_cells(f32(fineness))), (beside_px + _PLAIN_PX) * fineness)
+    outside = min(_SPARE * outside, 1.0)
     return QUIET_CELLS - outside, cells - QUIET_CELLS + outside
 
 
 @kernel
 def rows_in_sight(
-    fit: Array, frame: Array, cells: int, height: int, bend: float
+    fit: Array, frame: Array, limits: tuple[float, float], height: int, bend: float
 ) -> tuple[int, int]:
     """Return the first and last row of the image that the picture may reach.
 
     `bend`: see `bend_of`.
     """
-    low, high = limits(fit, frame[2], cells)
+    low, high = limits
     top, bottom = np.inf, -np.inf
     for u in (low, high):
         for v in (low, high):
@@ -56,19 +59,18 @@ def rows_in_sight(
     return _whole(frame[1], frame[2], top - bend, bottom + bend, height)
 
 
-@kernel
+@step
 def columns_in_sight(
-    fit: Array, frame: Array, cells: int, width: int, bend: float, image_row: int
+    fit: Array, frame: Array, limits: tuple[float, float], width: int, bend: float, image_row: int
 ) -> tuple[int, int]:
     """Return the first and last column of a row of the image that the picture may reach.
 
     u > low is (fit0 - low fit6) x + (fit1 - low fit7) y + fit2 - low > 0, and so on.
     """
     y = (image_row - frame[1]) / frame[2]
-    low, high = limits(fit, frame[2], cells)
     left, right = -np.inf, np.inf
     for k in (0, 3):
-        for limit, sign in ((low, 1.0), (high, -1.0)):
+        for limit, sign in ((limits[0], 1.0), (limits[1], -1.0)):
             slope = sign * (fit[k] - limit * fit[6])
             along = sign * (fit[k + 1] - limit * fit[7])
             level = along * y + sign * (fit[k + 2] - limit) + bend * abs(along)

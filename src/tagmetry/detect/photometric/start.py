@@ -5,27 +5,39 @@ import numpy as np
 from tagmetry.detect.photometric.kernel import kernel
 from tagmetry.detect.photometric.model import COUNT, LOOKS
 from tagmetry.detect.photometric.straight import straight_place
-from tagmetry.geometry import Array, square_to_quad
+from tagmetry.geometry import Array
 from tagmetry.geometry.arrays import BoolArray
 
 _LEAST_TURN_PX2 = 4.0
 
 
+@kernel
 def are_squares(corners_px: Array) -> BoolArray:
     """Say which corners go clockwise around an area of some pixels, without a dent, shape (n,)."""
-    along = np.roll(corners_px, -1, axis=1) - corners_px
-    after = np.roll(along, -1, axis=1)
-    turn = along[..., 0] * after[..., 1] - along[..., 1] * after[..., 0]
-    return np.asarray((turn > _LEAST_TURN_PX2).all(axis=1))
+    squares = np.ones(len(corners_px), dtype=np.bool_)
+    for k in range(len(corners_px)):
+        corners = corners_px[k]
+        for side in range(4):
+            here, after, last = corners[side], corners[(side + 1) % 4], corners[(side + 2) % 4]
+            along_x, along_y = after[0] - here[0], after[1] - here[1]
+            turn = along_x * (last[1] - after[1]) - along_y * (last[0] - after[0])
+            squares[k] &= turn > _LEAST_TURN_PX2
+    return squares
 
 
+@kernel
 def frames_of(corners_px: Array) -> Array:
     """Return the middle x, y and the half diagonal of markers, pixels, shape (n, 3)."""
-    middle = corners_px.mean(axis=1)
-    half_px = np.linalg.norm(corners_px - middle[:, None], axis=2).mean(axis=1)
-    return np.concatenate([middle, half_px[:, None]], axis=1)
+    frames = np.zeros((len(corners_px), 3))
+    for k in range(len(corners_px)):
+        for corner in corners_px[k]:
+            frames[k, :2] += 0.25 * corner
+        for corner in corners_px[k]:
+            frames[k, 2] += 0.25 * np.hypot(corner[0] - frames[k, 0], corner[1] - frames[k, 1])
+    return frames
 
 
+@kernel
 def first_fits(
     corners_px: Array, frames: Array, lenses: Array, squares: Array, looks: Array
 ) -> Array:
@@ -38,28 +50,40 @@ def first_fits(
         squares: First and last cell coordinate of the squares, shape (n, 2).
         looks: How each looked before; NaN where that is not known, shape (n, 11).
     """
-    places = (corners_px - frames[:, None, :2]) / frames[:, None, 2:]
-    cells = np.zeros((len(places), 3, 3))
-    cells[:, 0, 0] = cells[:, 1, 1] = squares[:, 1] - squares[:, 0]
-    cells[:, 0, 2] = cells[:, 1, 2] = squares[:, 0]
-    cells[:, 2, 2] = 1.0
-    H = square_to_quad(_straightened(places, lenses))
-    fits = np.zeros((len(places), COUNT))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        H[~(np.abs(np.linalg.det(H)) > 0)] = np.nan  # which a fit gives up
-        G = cells @ np.linalg.inv(H)
-        fits[:, :8] = (G / G[:, 2:, 2:]).reshape(-1, 9)[:, :8]
-    fits[:, LOOKS] = np.nan_to_num(looks)
+    fits, places = np.zeros((len(corners_px), COUNT)), np.empty((4, 2))
+    for k in range(len(corners_px)):
+        for corner in range(4):
+            x, y = (corners_px[k, corner] - frames[k, :2]) / frames[k, 2]
+            places[corner] = straight_place(x, y, lenses[k])
+        fits[k, :8] = _quad_to_cells(places, squares[k, 0], squares[k, 1])
+        if np.isfinite(looks[k]).all():
+            fits[k, LOOKS] = looks[k]
     return fits
 
 
 @kernel
-def _straightened(places: Array, lenses: Array) -> Array:
-    """Return places of n markers, (n, 4, 2), in the straight image."""
-    straight = np.empty(places.shape)
-    for marker in range(len(places)):
-        for corner in range(4):
-            x, y = places[marker, corner, 0], places[marker, corner, 1]
-            x, y = straight_place(x, y, lenses[marker])
-            straight[marker, corner, 0], straight[marker, corner, 1] = x, y
-    return straight
+def _quad_to_cells(corners: Array, low: float, high: float) -> tuple[float, ...]:
+    """Return the homography from a quadrilateral to a square of cells; NaN where there is none.
+
+    It is the inverse of that from the unit square (P. Heckbert, 1989), up to scale its adjugate.
+    """
+    (x0, y0), (x1, y1), (x2, y2), (x3, y3) = corners[0], corners[1], corners[2], corners[3]
+    sum_x, sum_y = x0 - x1 + x2 - x3, y0 - y1 + y2 - y3
+    dx1, dy1, dx2, dy2 = x1 - x2, y1 - y2, x3 - x2, y3 - y2
+    determinant = dx1 * dy2 - dx2 * dy1
+    g, h = (sum_x * dy2 - dx2 * sum_y) / determinant, (dx1 * sum_y - sum_x * dy1) / determinant
+    a, b, d, e = x1 - x0 + g * x1, x3 - x0 + h * x3, y1 - y0 + g * y1, y3 - y0 + h * y3
+    u = e - y0 * h, x0 * h - b, b * y0 - x0 * e
+    v = y0 * g - d, a - x0 * g, x0 * d - a * y0
+    w = d * h - e * g, b * g - a * h, a * e - b * d
+    side, one = high - low, w[2] if abs(a * u[0] + b * v[0] + x0 * w[0]) > 0.0 else np.nan
+    return (
+        (side * u[0] + low * w[0]) / one,
+        (side * u[1] + low * w[1]) / one,
+        (side * u[2] + low * w[2]) / one,
+        (side * v[0] + low * w[0]) / one,
+        (side * v[1] + low * w[1]) / one,
+        (side * v[2] + low * w[2]) / one,
+        w[0] / one,
+        w[1] / one,
+    )
