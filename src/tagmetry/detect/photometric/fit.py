@@ -20,6 +20,7 @@ _PRIOR_SLOPE = 0.3  # of light, across half a diagonal
 _PRIOR_FALL = 0.01  # the same, as a share
 _MOST_MOVE_PX = 1.5
 _MOST_ROUNDS = 6
+_BLUR_KEPT = 0.15  # a change of its variance that does not matter any more, as a share
 _OF_WEIGHTS = 1.228  # (E w / E (w r)')^2 of Cauchy's weights on Gaussian noise
 EXPONENTS = (-0.7, 1.4)  # of their logarithm
 _BLUR_PX2 = (0.1, 16.0)
@@ -36,7 +37,7 @@ def fit_pixels(
     noise: float,
     every: int = 1,
 ) -> tuple[float, float, Array, Array]:
-    """Improve the first `count` numbers of a fit until a round moves the picture little.
+    """Improve the first `count` numbers of a fit until a round changes place and blur little.
 
     Args:
         view: Whose pixels have been gathered, and their windows set.
@@ -45,7 +46,7 @@ def fit_pixels(
         edges: How many edges of each direction a pixel sees.
         count: How many numbers to fit: 10, place and levels; 18, all but
             what follows; 19, how light falls off as well; 24, and bows.
-        settled_px: What little is.
+        settled_px: What little is, of the place.
         noise: First guess, grey values.
         every: One block of so many is looked at.
 
@@ -65,7 +66,7 @@ def fit_pixels(
         moved_px = _shorten(fit, step, view.frame[2])
         fit[:count] += step
         _limited(fit, view.frame[2])
-        if moved_px < settled_px:
+        if moved_px < settled_px and _keeps_blur(fit, step):
             break
     return noise, moved_px, L, scale
 
@@ -159,6 +160,14 @@ def _shorten(fit: Array, step: Array, half_px: float) -> float:
         largest = max(abs(step[BLUR]), abs(step[BLUR + 1]), abs(step[BLUR + 2]))
         step[BLUR : BLUR + 3] /= max(1.0, 2 * largest / most)
     return moved_px
+
+
+@step
+def _keeps_blur(fit: Array, step: Array) -> bool:
+    """Say whether a step left the blur about as it was."""
+    if len(step) <= BLUR:
+        return True
+    return bool(abs(step[BLUR]) + abs(step[BLUR + 2]) < _BLUR_KEPT * (fit[BLUR] + fit[BLUR + 2]))
 
 
 @step
