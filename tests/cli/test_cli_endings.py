@@ -65,7 +65,9 @@ def test_ctrl_c_within_a_compiled_loop_is_one_line_too(
     """A loop that Numba compiled wraps whatever a signal raised meanwhile."""
 
     def interrupt(*_: object) -> None:
-        raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
+        inner = SystemError("returned a result with an exception set")
+        inner.__cause__ = KeyboardInterrupt()
+        raise SystemError("returned a result with an exception set") from inner
 
     monkeypatch.setattr("tagmetry.cli.report.result_lines", interrupt)
     assert run(["detect", str(small_picture)]) == 130

@@ -115,9 +115,16 @@ def _invoke(arguments: list[str]) -> None:
         try:
             command.invoke(context)
         except SystemError as error:  # how a compiled loop hands Ctrl-C on
-            if isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
+            if _has_interrupt(error):
                 raise KeyboardInterrupt from error
             raise
+
+
+def _has_interrupt(error: BaseException | None) -> bool:
+    """Say whether Ctrl-C is among what led to an error: each loop on the way wraps it anew."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
 
 
 def _refuse_os(error: OSError) -> int:
