@@ -47,14 +47,36 @@ def exact_corners(
         camera: Intrinsics, so that edges are followed along their curves.
         looks: How each looked in the image before, see `fit_pictures`.
     """
+    found = _fitted(grey, corners_px, pictures, camera, looks)
+    rest = np.flatnonzero(~found.refined)
+    if not len(rest):
+        return found
+    return found.with_some(
+        rest, _by_sides(grey, corners_px[rest], [pictures[int(k)] for k in rest], camera)
+    )
+
+
+def _fitted(
+    grey: GreyPixels,
+    corners_px: Array,
+    pictures: Sequence[Picture],
+    camera: Camera | None,
+    looks: Array | None = None,
+) -> Exact:
     fitted = fit_pictures(grey, corners_px, pictures, camera, looks=looks)
-    if fitted.sound.all():
-        return Exact(fitted.corners_px, fitted.covariances_px2, fitted.sound, fitted.looks)
-    rest = ~fitted.sound
+    return Exact(fitted.corners_px, fitted.covariances_px2, fitted.sound, fitted.looks)
+
+
+def _by_sides(
+    grey: GreyPixels, corners_px: Array, pictures: Sequence[Picture], camera: Camera | None
+) -> Exact:
+    """Return what sides alone tell, and where whole pictures fit from there, what those tell.
+
+    A finger over a corner leads the first guess of it astray, more than a side that passes it.
+    """
     cells = np.array([picture.side_cells for picture in pictures])
-    sides = refine(grey, corners_px[rest], cells[rest], camera)
-    corners, covariances = fitted.corners_px.copy(), fitted.covariances_px2.copy()
-    refined = fitted.sound.copy()
-    corners[rest], covariances[rest] = sides.corners_px, sides.covariances_px2
-    refined[rest] = sides.refined
-    return Exact(corners, covariances, refined, fitted.looks)
+    sides = refine(grey, corners_px, cells, camera)
+    unknown = np.full((len(sides), LOOK_COUNT), np.nan)
+    alone = Exact(sides.corners_px, sides.covariances_px2, sides.refined, unknown)
+    whole = _fitted(grey, sides.corners_px, pictures, camera)
+    return alone.with_some(np.flatnonzero(whole.refined), whole.at(whole.refined))

@@ -20,6 +20,13 @@ class Rows:
             return self
         return type(self)(*(values[rows] for values in vars(self).values()))
 
+    def with_some(self, rows: IntArray, others: Self) -> Self:
+        """Return these with the rows at `rows` replaced by others, in their order."""
+        replaced = type(self)(*(values.copy() for values in vars(self).values()))
+        for values, new in zip(vars(replaced).values(), vars(others).values(), strict=True):
+            values[rows] = new
+        return replaced
+
     def and_also(self, others: Self) -> Self:
         """Return these rows, then others."""
         if not len(others):

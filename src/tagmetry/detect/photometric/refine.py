@@ -27,8 +27,9 @@ from tagmetry.detect.photometric.outcome import outcomes
 from tagmetry.detect.photometric.start import are_squares, first_fits, frames_of
 from tagmetry.detect.photometric.straight import lenses_around
 from tagmetry.detect.photometric.threads import fit_by_threads
+from tagmetry.detect.rows import Rows
 from tagmetry.geometry import Array
-from tagmetry.geometry.arrays import BoolArray, GreyPixels, IntArray
+from tagmetry.geometry.arrays import BoolArray, GreyPixels
 
 _BOWING_HALF_PX = 21.0  # smaller markers cannot tell a bow from noise
 
@@ -66,7 +67,7 @@ class Picture:
 
 
 @dataclass(frozen=True, eq=False)
-class Fitted:
+class Fitted(Rows):
     """Corners of n markers.
 
     Attributes:
@@ -93,14 +94,6 @@ class Fitted:
             np.zeros(count, dtype=np.bool_),
             np.full((count, LOOK_COUNT), np.nan),
         )
-
-    def with_some(self, which: IntArray, others: "Fitted") -> "Fitted":
-        """Return these with those at `which` replaced, shape (m,)."""
-        corners, covariances = self.corners_px.copy(), self.covariances_px2.copy()
-        sound, looks = self.sound.copy(), self.looks.copy()
-        corners[which], covariances[which] = others.corners_px, others.covariances_px2
-        sound[which], looks[which] = others.sound, others.looks
-        return Fitted(corners, covariances, sound, looks)
 
 
 def fit_pictures(
