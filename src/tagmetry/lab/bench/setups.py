@@ -55,7 +55,7 @@ SETUPS = (
     Setup("size-480p", count=6, size_px=(640, 480), extent="default"),
     Setup("size-720p", count=6, size_px=(1280, 720)),
     Setup("size-4k", size_px=(3840, 2160), all_threads=True),
-    Setup("film-96", count=96, side_px=36.0, images=12),
+    Setup("film-96", count=96, side_px=36.0, images=12, is_film=True),
     Setup("film-360", count=360, side_px=36.0, images=12, is_film=True, all_threads=True),
     *EXACT,
 )
