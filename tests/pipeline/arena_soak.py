@@ -75,7 +75,7 @@ def robots(count: int, port: int, odometry_hz: int) -> Iterator[None]:
         program = Path(folder) / "robots"
         own = Path(__file__).with_name("soak_robots.c")
         linked = [_SOURCES / "tagmetry_link.c", _SOURCES / "tagmetry_posix.c"]
-        built = [
+        built: list[str | Path] = [
             "gcc",
             "-O2",
             "-D_DEFAULT_SOURCE",
@@ -135,16 +135,18 @@ class Tally:
 def soak(count: int, asked: argparse.Namespace) -> str:
     """Return what a run gave, in words."""
     pictures, loop, tally = pictures_of(count), measurement(count), Tally()
-    for k in range(_WARM):
-        loop.measure(Image(pictures[0], time.monotonic(), "capture", k, "memory"))
-    images, begun_mb = NewestDue(pictures, asked.rate, asked.seconds), memory_mb()
+    images = NewestDue(pictures, asked.rate, asked.seconds)
     with (
         Host({n: _KEYS[n] for n in range(count)}, port=0) as host,
         robots(count, host.address[1], asked.odometry_hz),
     ):
         wait_until_linked(host)
-        began_s = time.process_time()
-        for result in run_arena(images, loop, [LinkTaker(host, 0.3, every_s=asked.send_every)]):
+        taker = LinkTaker(host, 0.3, every_s=asked.send_every)
+        for k in range(_WARM):
+            picture = pictures[k % len(pictures)]
+            taker.take(loop.measure(Image(picture, time.monotonic(), "capture", k, "memory")))
+        begun_mb, began_s = memory_mb(), time.process_time()
+        for result in run_arena(images, loop, [taker]):
             tally.add(result)
         busy = (time.process_time() - began_s) / asked.seconds
         linked, heard = sum(one.is_linked for one in host.links()), len(host.take())
