@@ -113,6 +113,21 @@ def test_a_folder_that_is_a_file_is_refused(tmp_path: Path, capsys: pytest.Captu
     assert capsys.readouterr().err == f"tagmetry: {tmp_path / 'file'}: File exists\n"
 
 
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--size", "60mm"], "--size says nothing without --image"),
+        (["--headless"], "--headless says nothing without --live"),
+    ],
+)
+def test_options_that_say_nothing_are_refused(
+    options: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    assert run(["demo", *options, "--out", str(tmp_path / "out")]) == 2
+    assert said in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 def test_measures_a_picture_of_ones_own(
     scene: Scene, tmp_path: Path, capsys: pytest.CaptureFixture
 ) -> None:

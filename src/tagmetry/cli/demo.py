@@ -1,11 +1,13 @@
 """`tagmetry demo`: the whole way once, on a rendered scene or on your picture; then an arena."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tagmetry.cli.options import CameraFile, Size, measurement
+from tagmetry.errors import InputError
 
 if TYPE_CHECKING:
     from tagmetry.pipeline.demonstration import Comparison, Demonstration
@@ -41,6 +43,9 @@ def demo(
     if image is not None:
         _on_picture(image, family or _reliable_families(), size, camera, out)
         return
+    _refuse_without("--image", {"--family": family, "--size": size, "--camera": camera})
+    if not live:
+        _refuse_without("--live", {"--headless": headless})
     import numpy as np
 
     from tagmetry.pipeline.demonstration import demonstrate
@@ -48,6 +53,13 @@ def demo(
     _tell(demonstrate(out, np.random.default_rng(seed)))
     if live:
         _show_arena(out, headless=headless)
+
+
+def _refuse_without(missing: str, options: Mapping[str, object]) -> None:
+    """Refuse options that say something only beside one that is not given."""
+    given = [option for option, value in options.items() if value]
+    if given:
+        raise InputError(f"{', '.join(given)} says nothing without {missing}; give it too")
 
 
 def _show_arena(out: Path, *, headless: bool) -> None:
