@@ -6,8 +6,9 @@ the emergency stop bring it to a stand by itself.
 
 from collections.abc import Callable
 
-from tagmetry.link.bodies import pack_body, unpack_body
+from tagmetry.link.bodies import pack_body
 from tagmetry.link.client.clock import HostClock
+from tagmetry.link.client.greeting import opened_assign
 from tagmetry.link.emergency import RELEASE, STOP
 from tagmetry.link.keys import session_key
 from tagmetry.link.layout import Kind
@@ -22,7 +23,7 @@ from tagmetry.link.messages import (
     Time,
     TimeReply,
 )
-from tagmetry.link.packet import Header, Refusal, body_of, is_sealed_with, read_header, seal
+from tagmetry.link.packet import Header, Refusal, read_header, seal
 from tagmetry.link.peer import STOPPED_FLAG
 from tagmetry.link.session import Session
 from tagmetry.link.wire import (
@@ -153,14 +154,9 @@ class Robot:
     def _receive_assign(self, packet: bytes, header: Header, now_us: int) -> Message | Refusal:
         if self._session is not None:
             return Refusal.SESSION
-        if not is_sealed_with(self._key, packet):
-            return Refusal.TAG
-        assign = unpack_body(Kind.ASSIGN, body_of(packet))
-        if not isinstance(assign, Assign) or assign.robot_nonce != self._nonce:
-            return Refusal.REPLAYED
-        if not 0 <= now_us - assign.robot_us <= LATE_US:
-            return Refusal.LATE
-        self._begin(assign, header, now_us)
+        assign = opened_assign(packet, self._key, self._nonce, now_us)
+        if not isinstance(assign, Refusal):
+            self._begin(assign, header, now_us)
         return assign
 
     def _begin(self, assign: Assign, header: Header, now_us: int) -> None:

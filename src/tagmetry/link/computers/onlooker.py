@@ -3,14 +3,15 @@
 from collections import Counter
 from collections.abc import Callable
 
-from tagmetry.link.bodies import pack_body, unpack_body
+from tagmetry.link.bodies import pack_body
 from tagmetry.link.client.clock import HostClock
+from tagmetry.link.client.greeting import opened_assign
 from tagmetry.link.computers.keys import ARENA_ID
 from tagmetry.link.layout import Kind, Sender
 from tagmetry.link.messages import Assign, Hello, Message
-from tagmetry.link.packet import Header, Refusal, body_of, is_sealed_with, read_header, seal
+from tagmetry.link.packet import Header, Refusal, read_header, seal
 from tagmetry.link.session import Session
-from tagmetry.link.wire import HELLO_US, LATE_US, RELINK_US
+from tagmetry.link.wire import HELLO_US, RELINK_US
 
 
 class Onlooker:
@@ -82,14 +83,9 @@ class Onlooker:
         return message
 
     def _open_assign(self, packet: bytes, header: Header, now_us: int) -> Message | Refusal:
-        if not is_sealed_with(self._key, packet):
-            return Refusal.TAG
-        assign = unpack_body(Kind.ASSIGN, body_of(packet))
-        if not isinstance(assign, Assign) or assign.robot_nonce != self._nonce:
-            return Refusal.REPLAYED
-        if not 0 <= now_us - assign.robot_us <= LATE_US:
-            return Refusal.LATE
-        self._take(assign, header, now_us)
+        assign = opened_assign(packet, self._key, self._nonce, now_us)
+        if not isinstance(assign, Refusal):
+            self._take(assign, header, now_us)
         return assign
 
     def _take(self, assign: Assign, header: Header, now_us: int) -> None:
