@@ -8,8 +8,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from small_table import CAMERA, SENSOR, T_CAMERA_WORLD, TABLE
 
-from tagmetry.camera import Camera
 from tagmetry.cli.main import run
 from tagmetry.files import save_camera
 from tagmetry.geometry import RigidTransform
@@ -18,22 +18,7 @@ from tagmetry.geometry.transforms import Rotation
 from tagmetry.markers import MountedMarker
 from tagmetry.twin import render
 
-CAMERA = Camera(640, 400, (500.0, 500.0), (318.0, 203.0))
-T_CAMERA_WORLD = RigidTransform.from_components(
-    [0, 0, 1.2], Rotation.from_euler("x", 180, degrees=True)
-)
-ARENA = """
-tagmetry: arena
-version: 1
-name: table
-camera: ceiling.yaml
-marker_size_m: 0.08
-diameter_m: 0.16
-floor: {size_m: 0.1, toward: 101, markers: [{id: 100}, {id: 101}]}
-sensor: {range_m: 0.6}
-robots:
-  - {id: 1, name: ada, marker: {id: 1, height_m: 0.1}, key: "KEY"}
-""".replace("KEY", "ab" * 32)
+ARENA = TABLE.replace("0.1}}", '0.1}, key: "KEY"}').replace("KEY", "ab" * 32) + SENSOR
 
 
 def marker(

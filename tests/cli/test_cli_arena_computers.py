@@ -11,13 +11,12 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from small_table import CAMERA, SENSOR, T_CAMERA_WORLD, TABLE
 
 from tagmetry.arena import RobotState
-from tagmetry.camera import Camera
 from tagmetry.cli.main import run
 from tagmetry.files import save_camera
 from tagmetry.geometry import RigidTransform
-from tagmetry.geometry.transforms import Rotation
 from tagmetry.link import Command, now_us
 from tagmetry.link.computers import ArenaBridge, state_message
 from tagmetry.link.computers.net import Net
@@ -27,20 +26,8 @@ from tagmetry.twin import render
 
 pytest.importorskip("zenoh", reason="needs the part zenoh")
 
-CAMERA = Camera(640, 400, (500.0, 500.0), (318.0, 203.0))
 KEY = "cd" * 32
-ARENA = """
-tagmetry: arena
-version: 1
-name: table
-camera: ceiling.yaml
-marker_size_m: 0.08
-diameter_m: 0.16
-floor: {size_m: 0.1, toward: 101, markers: [{id: 100}, {id: 101}]}
-sensor: {range_m: 0.6}
-robots:
-  - {id: 1, name: ada, marker: {id: 1, height_m: 0.1}}
-"""
+ARENA = TABLE + SENSOR
 
 
 def free_endpoint() -> str:
@@ -58,9 +45,7 @@ def table(tmp_path_factory: pytest.TempPathFactory) -> Path:
         MountedMarker("tag36h11", number, size_m, RigidTransform.from_translation([x_m, 0, z_m]))
         for number, size_m, x_m, z_m in ((100, 0.1, -0.4, 0), (101, 0.1, 0.4, 0), (1, 0.08, 0, 0.1))
     ]
-    turn = Rotation.from_euler("x", 180, degrees=True)
-    T_camera_world = RigidTransform.from_components([0, 0, 1.2], turn)
-    shown = render(markers, T_camera_world, CAMERA, np.random.default_rng(0))
+    shown = render(markers, T_CAMERA_WORLD, CAMERA, np.random.default_rng(0))
     cv2.imwrite(str(folder / "floor.png"), shown)
     (folder / "arena.yaml").write_text(ARENA, "utf-8")
     assert run(["arena", "calibrate", str(folder / "floor.png"), str(folder / "arena.yaml")]) == 0

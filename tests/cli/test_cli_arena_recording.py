@@ -7,8 +7,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from small_table import CAMERA, T_CAMERA_WORLD, TABLE
 
-from tagmetry.camera import Camera
 from tagmetry.cli.main import run
 from tagmetry.files import save_camera
 from tagmetry.geometry import RigidTransform
@@ -18,22 +18,6 @@ from tagmetry.record.mcap import IMAGES, read_entries
 from tagmetry.twin import render
 
 pytest.importorskip("mcap", reason="recordings need the part arena")
-
-CAMERA = Camera(640, 400, (500.0, 500.0), (318.0, 203.0))
-ARENA = """
-tagmetry: arena
-version: 1
-name: table
-camera: ceiling.yaml
-marker_size_m: 0.08
-diameter_m: 0.16
-floor: {size_m: 0.1, toward: 101, markers: [{id: 100}, {id: 101}]}
-robots:
-  - {id: 1, name: ada, marker: {id: 1, height_m: 0.1}}
-"""
-T_CAMERA_WORLD = RigidTransform.from_components(
-    [0, 0, 1.2], Rotation.from_euler("x", 180, degrees=True)
-)
 
 
 def shown(number: int, at_m: tuple[float, float, float], size_m: float) -> MountedMarker:
@@ -46,7 +30,7 @@ def table(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with an arena that is calibrated, and pictures of a robot that moves."""
     folder = tmp_path_factory.mktemp("table")
     save_camera(CAMERA, folder / "ceiling.yaml")
-    (folder / "arena.yaml").write_text(ARENA, "utf-8")
+    (folder / "arena.yaml").write_text(TABLE, "utf-8")
     floor = [shown(100, (-0.5, 0.3, 0), 0.1), shown(101, (0.5, 0.3, 0), 0.1)]
     (folder / "drive").mkdir()
     rng = np.random.default_rng(0)
